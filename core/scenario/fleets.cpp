@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
@@ -22,9 +23,9 @@ std::string component_field(const PopulationSettings& population, std::size_t k)
 
 // A setting in which all drivers of a population must agree.
 struct CommonSetting {
-    const char* field;
-    const char* unit;
-    double (*value)(const DriverSettings& driver);
+    const char* field = "";
+    const char* unit = "";
+    double (*value)(const DriverSettings& driver) = nullptr;
     bool meso_only = false;  // true: full dynamics uses the value of each driver
 };
 constexpr std::array<CommonSetting, 5> kCommonSettings{{
@@ -75,8 +76,9 @@ void find_late_brakes(const Scenario& scenario, const PopulationSettings& popula
         const GapPolicySettings* const policy = policy_of(scenario, component);
         if (later_s <= 0.0 || policy == nullptr) continue;
         const double limit_mps = network_kind(scenario.network).highest_limit_mps(scenario.network);
-        for (double v = 0.0; v < limit_mps + kSpeedStep_mps; v += kSpeedStep_mps) {
-            const double speed_mps = std::min(v, limit_mps);
+        const int steps = static_cast<int>(std::ceil(limit_mps / kSpeedStep_mps));
+        for (int step = 0; step <= steps; ++step) {
+            const double speed_mps = std::min(step * kSpeedStep_mps, limit_mps);
             const double needed_m = kMinStandstillGap_m + later_s * speed_mps;
             if (equilibrium_gap_m(*policy, speed_mps) >= needed_m - kRounding_m) continue;
             problems.emplace_back(
