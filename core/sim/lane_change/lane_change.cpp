@@ -375,8 +375,8 @@ MandatoryChange mandatory_change(const Model& model, const State& state, const L
     return change;
 }
 
-double urgent_share(const LaneChangeSettings& c, double urgency) {
-    return c.gap_share + urgency * (c.urgent_gap_share - c.gap_share);
+double urgent_share(const LaneChangeSettings& settings, double urgency) {
+    return settings.gap_share + urgency * (settings.urgent_gap_share - settings.gap_share);
 }
 
 double waiting_position_m(const Model& model, const State& state, const LaneChangeRequest& me) {
