@@ -50,7 +50,7 @@ STOPLINE_INLINE ErrorKnots error_knots(double time_s, double correlation_s) {
     return {static_cast<std::uint64_t>(at_knot), (1.0 - share) * norm, share * norm};
 }
 
-// What a driver sees of its leader.
+// HumanView is what a driver sees of its leader.
 template <class R>
 struct HumanView {
     R gap_m, closing_mps;

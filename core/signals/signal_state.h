@@ -34,7 +34,8 @@ struct SignalState {
     std::vector<std::vector<SignalDetector>> detectors;
 };
 
-// What a controller may read and write: the lights, the memory and the detectors of one intersection at one tick.
+// SignalView is what a controller may read and write: the lights, the memory and the detectors of one intersection at
+// one tick.
 class SignalView {
 public:
     SignalView(const SignalPlan& plan, std::size_t signal, std::int64_t tick, SignalState& state)

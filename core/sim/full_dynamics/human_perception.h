@@ -1,4 +1,4 @@
-// What human drivers see of their leaders in full dynamics (driver/human.h).
+// This file computes what human drivers see of their leaders in full dynamics (driver/human.h).
 #pragma once
 
 #include <span>
