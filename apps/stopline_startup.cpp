@@ -47,8 +47,10 @@ void declare(Options& app, StartupCliOptions& options) {
         fmt::format("Measured starts: CSV with columns t_s and mean_kmh, and optionally ci95_of_mean, p2.5, p97.5 and "
                     "n (default: {})",
                     (data_directory() / kMeasuredStarts).string()));
-    app.add_flag("--fit", options.fit,
-                 "Fit the acceleration profile and the speed gain of the driver to the mean of the measured starts");
+    app.add_flag(
+        "--fit", options.fit,
+        "Fit the acceleration profile, the speed gain and the acceleration of human drivers to the mean of the "
+        "measured starts");
     app.add("--write", options.write, "With --fit: write the fitted driver to this file (YAML)").type_name("FILE");
     app.add_flag("--no-figures", options.no_figures, "Do not draw figures");
     add_common_options(app, options.common, "Folder for the results (default: out/startup)");
@@ -84,7 +86,8 @@ void fit_driver(const StartupCliOptions& options, const StartupCurve& curve, Sce
     if (options.write.empty()) return;
     const std::string comment = fmt::format(
         "Parameters of the driver. `stopline-startup --fit` has fitted free driving (profile and speed_gain), so that\n"
-        "the simulated start of {} follows the mean of {}. Nothing else is fitted.\n"
+        "the simulated start of {} follows the mean of {}. It has also fitted the acceleration of human drivers\n"
+        "(human.idm.acceleration) to this mean. Nothing else is fitted.\n"
         "Sources: controller gains: Ploeg et al. 2011, reference [31] of the paper; radar delay: Section III.D of the\n"
         "paper; comfort limits: ISO 15622. The paper does not give the V2V delay; string stability depends on it.\n"
         "Our choices: jerk_up and jerk_down make the command continuous: it reaches a comfort limit in 0.42 s (up) and\n"

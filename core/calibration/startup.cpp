@@ -4,10 +4,12 @@
 #include <cmath>
 #include <exception>
 
+#include <boost/math/tools/minima.hpp>
 #include <nlopt.hpp>
 
 #include "base/input_error.h"
 #include "base/units.h"
+#include "driver/idm.h"
 #include "runs/interrupted.h"
 #include "runs/run.h"
 
@@ -17,6 +19,7 @@ namespace {
 
 constexpr double kGreenStart_s = 60.0;
 constexpr double kTrajectoryInterval_s = 0.01;
+constexpr double kNoLeaderGap_m = 1e6;
 constexpr double kLowerBound = 0.02;  // lower bound of all fitted parameters, m/s2 or 1/s
 
 // Returns a scenario with one vehicle at one signal. The green lasts longer than the start.
@@ -154,6 +157,28 @@ double rms_deviation_mps(const StartupCurve& curve, const StartupRun& run) {
     return std::sqrt(sum / static_cast<double>(curve.time_s.size()));
 }
 
+double idm_deviation_mps(const StartupCurve& curve, double acceleration_mps2, double desired_mps) {
+    constexpr double kStep_s = 0.01;
+    const IdmParameters idm = idm_parameters({.acceleration_mps2 = acceleration_mps2}, 0.0, 0.0);
+    StartupRun run;
+    double speed_mps = 0.0;
+    double time_s = 0.0;
+    for (const double at_s : curve.time_s) {
+        for (; time_s + 0.5 * kStep_s < at_s; time_s += kStep_s)
+            speed_mps += kStep_s * idm_acceleration_mps2(idm, speed_mps, 0.0, kNoLeaderGap_m, desired_mps);
+        run.speed_mps.push_back(speed_mps);
+    }
+    return rms_deviation_mps(curve, run);
+}
+
+double fit_idm_acceleration_mps2(const StartupCurve& curve, double desired_mps) {
+    constexpr double kLowest_mps2 = 0.1;
+    constexpr double kHighest_mps2 = 10.0;
+    constexpr int kBits = 20;  // precision of the result
+    const auto deviation_mps = [&](double mps2) { return idm_deviation_mps(curve, mps2, desired_mps); };
+    return boost::math::tools::brent_find_minima(deviation_mps, kLowest_mps2, kHighest_mps2, kBits).first;
+}
+
 StartupFit fit_startup(const Scenario& scenario, const StartupCurve& curve,
                        const std::function<bool(int)>& on_progress) {
     FitTask task{scenario, &curve, &on_progress};
@@ -185,6 +210,8 @@ StartupFit fit_startup(const Scenario& scenario, const StartupCurve& curve,
     for (double& value : parameters) value = std::round(value * 1e3) / 1e3;
     set_parameters(parameters, free);
     fit.driver = task.scenario.driver;
+    const double idm_mps2 = fit_idm_acceleration_mps2(curve, scenario.network.approach.speed_limit_mps);
+    fit.driver.human.idm.acceleration_mps2 = std::round(idm_mps2 * 1e3) / 1e3;
     fit.rms_after_mps = rms_deviation_mps(curve, simulate_start(task.scenario, curve.time_s));
     fit.evaluations = task.evaluations;
     return fit;

@@ -41,11 +41,20 @@ struct StartupRun {
 StartupRun simulate_start(const Scenario& scenario, const std::vector<double>& times_s);
 
 struct StartupFit {
-    DriverSettings driver;        // the driver of the scenario, but with the fitted acceleration curve
+    // The driver of the scenario, but with the fitted acceleration curve, and for human drivers with the result of
+    // fit_idm_acceleration_mps2() for the speed limit of the scenario.
+    DriverSettings driver;
     double rms_before_mps = 0.0;  // root mean square deviation from the measured mean
     double rms_after_mps = 0.0;
     int evaluations = 0;
 };
+// Returns the root mean square deviation, m/s, of the intelligent driver model without a leader (driver/idm.h) from the
+// mean of the measured starts. `desired_mps` is its desired speed.
+double idm_deviation_mps(const StartupCurve& curve, double acceleration_mps2, double desired_mps);
+
+// Returns the maximum acceleration of the intelligent driver model, m/s2, with the smallest idm_deviation_mps().
+double fit_idm_acceleration_mps2(const StartupCurve& curve, double desired_mps);
+
 // Fits the driver with NLopt's BOBYQA (Powell 2009). `on_progress` gets the number of evaluations; if it returns false,
 // the fit throws Interrupted.
 StartupFit fit_startup(const Scenario& scenario, const StartupCurve& curve,

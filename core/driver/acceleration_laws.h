@@ -28,8 +28,8 @@ namespace stopline {
 // never the smallest one.
 inline constexpr double kUnconstrained_mps2 = 1e3;
 
-// The parameters of human drivers for the kernels (human.h): the maximum acceleration a of the intelligent driver
-// model, and 1 / (2 sqrt(a b)) with its comfortable deceleration b.
+// The parameters of human drivers (human.h): the maximum acceleration a of the intelligent driver model, and
+// 1 / (2 sqrt(a b)) with its comfortable deceleration b.
 template <class Number>
 struct HumanTablesOf {
     Number acceleration_mps2 = 0.0;

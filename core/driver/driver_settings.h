@@ -116,17 +116,19 @@ struct IdmSettings {
 };
 
 // Human drivers (human.h), for policies with the law `human`. The errors are those of Treiber, Kesting, Helbing 2006.
-// The reaction time is the mean start-up reaction time of Salles, Kaufmann, Reuss 2020, "Extending the intelligent
-// driver model in SUMO and verifying the drive off trajectories with aerial measurements". With the default spread, the
-// reaction times lie between those to an expected and to an unexpected signal of the car ahead (Green 2000, "How long
-// does it take to stop?").
+// The shipped drivers replace the maximum acceleration by that of measured starts (data/drivers).
+// The reaction times are those of Green 2000, "How long does it take to stop?": about 0.75 s to an expected event, such
+// as the start of the queue ahead, and about 1.25 s to an unexpected signal of the car ahead. While following, the mean
+// of both applies.
 struct HumanSettings {
     IdmSettings idm;
-    double reaction_s = 1.0;
+    double start_reaction_s = 0.75;   // mean reaction time to the start of the car ahead, and to the start of green
+    double reaction_s = 1.0;          // mean reaction time while following
     double reaction_spread_s = 0.25;  // the reaction times of drivers are uniform within reaction_s +- this value
     double gap_error = 0.05;          // V_s, relative error of the gap
     double closing_error_1ps = 0.01;  // r_c, error of the closing speed per metre of gap
     double error_time_s = 20.0;       // correlation time of the errors
+    int anticipated_vehicles = 5;     // full dynamics: number of vehicles ahead to which a driver reacts
 
     bool operator==(const HumanSettings&) const = default;
 };

@@ -68,13 +68,15 @@ struct FollowingBraking {
     double reaction_s;
 };
 
-// The parameter `random` of the functions of a model: the random numbers of one vehicle in one step. Here all numbers
-// have the same value. A model calls only the members that it needs.
+// The parameter `random` of the functions of a model: the random numbers of one vehicle in one step, and the time since
+// the vehicle ahead began to move. Here all numbers have the same value, and the vehicle ahead began to move long ago.
+// A model calls only the members that it needs.
 struct FixedRandom {
     double value = 0.0;
     double dawdle() const { return value; }
     double driver(std::uint64_t /*index*/) const { return value; }
     double time_s() const { return 0.0; }
+    double since_leader_start_s() const { return 1e9; }
 };
 
 // Returns the speed from which a vehicle can stop behind its leader. The leader brakes with b [m/s2] at once, the

@@ -2,22 +2,37 @@
 // in microscopic traffic models", Physica A 360. A driver accelerates as in the intelligent driver model (idm.h), but
 // sees gap and closing speed with a delay and with errors:
 //
-//   reaction time    The driver sees the gap s and the closing speed dv as they were a reaction time tau ago. Temporal
-//                    anticipation: the driver assumes that dv has not changed since, so the gap is now s - tau dv.
+//   reaction time    The driver sees the gap s and the leader's speed as they were a reaction time tau ago. Temporal
+//                    anticipation: the driver assumes that the leader's speed has not changed since. It knows its own
+//                    motion (our choice; in the source, the closing speed is assumed not to have changed).
 //   gap error        The driver estimates the gap s (1 + V_s w_s). V_s is the relative error.
 //   closing error    The driver estimates the closing speed dv + r_c s w_v. r_c is the error of the inverse time to
 //                    collision.
+//   several leaders  The driver reacts to the n vehicles ahead: their terms (s* / s)^2 of the intelligent driver model
+//                    are added. s is the sum of the net gaps up to a vehicle, and dv is the difference to its speed.
+//                    s* is multiplied by c = 1 / sqrt(1 + 1/4 + ... + 1/n^2), so that the equilibrium gap is that of
+//                    one leader. Without this spatial anticipation, platoons with a reaction time would be unstable.
+//
+// Our choice: the gap to the n-th vehicle counts as at least n times the gap to the leader. Otherwise a driver would
+// keep a longer gap behind a platoon of automated vehicles with short gaps, or before a standing queue.
 //
 // In the source, w_s and w_v are Wiener processes with unit variance and a correlation time. Here they are functions of
 // time, so that a driver needs no memory: each process has a random number at every multiple of the correlation time.
 // It is interpolated between these numbers so that its variance is always 1. The errors are 0 at rest and grow with the
 // speed up to kFullErrorSpeed_mps.
 //
-// Each driver has its own reaction time, uniform within reaction_s +- reaction_spread_s. Full dynamics stores the
+// Each driver has its own reaction time, uniform within reaction_s +- reaction_spread_s. Its reaction time at the start
+// differs from start_reaction_s by the same share. Full dynamics stores the
 // measurements of past steps, so a driver sees them tau late (sim/full_dynamics/human_perception.h). The mesoscale mode
-// stores no past. There, a driver in motion has no delay, because the anticipation compensates for it (main result of
-// the source). A driver at rest starts when the speed of its leader reaches tau x a_l, where a_l is the leader's
-// acceleration. A leader that accelerates evenly has then moved for the time tau.
+// stores no past. There, a driver in motion has no delay and one leader, because the anticipation compensates for the
+// delay (main result of the source).
+//
+// Start. A driver at rest behind its leader begins to accelerate one start reaction time after the leader has begun to
+// move. It then drives off: until a reaction time has passed, it accelerates as without a leader, unless the leader is
+// slower than itself or the gap is shorter than the standstill gap. Otherwise the reaction would count twice, because the intelligent driver model alone starts as
+// late as measured drivers: its acceleration grows with the gap. Measured followers accelerate at once
+// (data/startup/stuttgart_curve.csv). In full dynamics the powertrain adds its delay. In the mesoscale mode
+// MesoSettings::start_delay_s takes its place.
 #pragma once
 
 #include <array>
@@ -29,12 +44,59 @@
 namespace stopline {
 
 inline constexpr double kFullErrorSpeed_mps = 1.0;
+inline constexpr int kMaxAnticipatedVehicles = 10;
 inline constexpr double kErrorRange_m = 100.0;  // the closing error does not grow beyond this gap
 
 // The reaction time of a driver. `u` is uniform in [0, 1).
 template <class R>
 STOPLINE_INLINE R reaction_time_s(const HumanSettings& h, const R& u) {
     return h.reaction_s + h.reaction_spread_s * (2.0 * u - 1.0);
+}
+
+// The reaction time at the start of a driver with the given reaction time.
+template <class R>
+STOPLINE_INLINE R start_reaction_s(const HumanSettings& h, const R& reaction_s) {
+    return h.reaction_s > 0.0 ? R(reaction_s * (h.start_reaction_s / h.reaction_s)) : R(h.start_reaction_s);
+}
+
+// Returns 1 for a driver that drives off, else 0. `since_leader_start_s` is the time since the leader began to move (0
+// while it stands), and `wait_s` the delay of the own start. `extra_gap_m` is the net gap minus the standstill gap.
+template <class R>
+STOPLINE_INLINE R is_driving_off(const R& since_leader_start_s, const R& wait_s, const R& reaction_s,
+                                 const R& closing_mps, const R& extra_gap_m) {
+    return STOPLINE_FLAG(R, since_leader_start_s > 0.0) * STOPLINE_FLAG(R, since_leader_start_s >= wait_s) *
+           STOPLINE_FLAG(R, since_leader_start_s < wait_s + reaction_s) * STOPLINE_FLAG(R, closing_mps <= 0.0) *
+           STOPLINE_FLAG(R, extra_gap_m >= 0.0);
+}
+
+// The start of a driver behind its leader, as the number of steps since the leader began to move.
+// kStartedLongAgo_ticks is also the value of a driver that has not stopped behind a leader.
+inline constexpr int kStartedLongAgo_ticks = 1 << 28;
+inline constexpr double kStandsClosedUp_m = 1.0;  // extra gap up to which the leader is the reason of a driver's stand
+
+// Returns the number of steps since the start of the leader, one step after it was `ticks`. It is 0 while both are at
+// rest and the driver stands closed up. `extra_gap_m` is the net gap minus the standstill gap.
+inline int next_start_ticks(int ticks, double speed_mps, double leader_speed_mps, double extra_gap_m) {
+    const bool both_rest = speed_mps <= kMesoStopSpeed_mps && leader_speed_mps <= kMesoStopSpeed_mps;
+    if (both_rest && extra_gap_m <= kStandsClosedUp_m) return 0;
+    return ticks < kStartedLongAgo_ticks ? ticks + 1 : ticks;
+}
+
+// Returns true for a driver at rest if its leader stands closely ahead, or has started less than `wait_s` ago.
+inline bool waits_to_start(int start_ticks, double speed_mps, double wait_s, double step_s) {
+    return speed_mps <= kMesoStopSpeed_mps && (start_ticks + 0.5) * step_s < wait_s;
+}
+
+// Returns the age of what a driver sees: the time since its own start, but at most its reaction time.
+inline double view_age_s(double since_start_s, double reaction_s) {
+    return since_start_s < 0.0 ? 0.0 : since_start_s < reaction_s ? since_start_s : reaction_s;
+}
+
+// Returns the factor c on the desired gap of a driver that reacts to `vehicles` vehicles ahead.
+inline double several_leaders_factor(int vehicles) {
+    double sum = 0.0;
+    for (int n = 1; n <= vehicles; ++n) sum += 1.0 / square(static_cast<double>(n));
+    return 1.0 / std::sqrt(sum);
 }
 
 // The two random numbers between which an error process is interpolated, and their weights.
@@ -57,8 +119,8 @@ struct HumanView {
 };
 
 // Returns the view with the estimation errors. `random.driver(n)` is random number n of the driver, `random.time_s()`
-// is the time. Number 0 gives the reaction time. The numbers 1, 3, 5, ... give the gap error, and 2, 4, 6, ... give the
-// closing error.
+// is the time, and `random.since_leader_start_s()` the time since the vehicle ahead began to move. Number 0 gives the
+// reaction time. The numbers 1, 3, 5, ... give the gap error, and 2, 4, 6, ... give the closing error.
 template <class R, class Random>
 STOPLINE_INLINE HumanView<R> with_errors(const HumanSettings& h, const HumanView<R>& exact, const R& speed_mps,
                                          const Random& random) {
@@ -78,13 +140,17 @@ STOPLINE_INLINE HumanView<R> with_errors(const HumanSettings& h, const HumanView
 
 // Human drivers as a car-following model of the mesoscale mode. The concept CarFollowing (following_model.h) explains
 // the functions. The policy gives the standstill gap and the time gap, the driver all other parameters.
+// collect_moving_blocks() keeps a driver at rest that waits to start.
 struct Human : Idm {
     static constexpr std::array kNames{FollowingName{"human", "human drivers: idm with reaction time and errors"}};
 
     HumanSettings human;
+    double powertrain_delay_s = 0.0;
 
     static Human make(const FollowingSettings& settings, const MesoGap& gap) {
-        return {{idm_parameters(settings.human.idm, gap.standstill_gap_m, gap.time_gap_s)}, settings.human};
+        return {{idm_parameters(settings.human.idm, gap.standstill_gap_m, gap.time_gap_s)},
+                settings.human,
+                settings.meso.start_delay_s};
     }
 
     template <class R, class Random>
@@ -95,11 +161,11 @@ struct Human : Idm {
         const R standstill_m = k.standstill_gap_m + in.extra_gap_m;
         const R interaction = idm_interaction(in.speed_mps, seen.closing_mps, seen.gap_m, standstill_m,
                                               R(k.time_gap_s * in.speed_mps), k.closing_s2pm);
-        const R next = in.speed_mps + k.acceleration_mps2 * dt * (1.0 - interaction);
         const R reaction_s = reaction_time_s(k.human, R(random.driver(0)));
-        const R waits = STOPLINE_FLAG(R, in.speed_mps <= 0.0) *
-                        STOPLINE_FLAG(R, in.leader_speed_mps < reaction_s * in.leader_acceleration_mps2);
-        return choose(waits, R(0.0), next);
+        const R wait_s = start_reaction_s(k.human, reaction_s) + k.powertrain_delay_s;
+        const R drives_off = is_driving_off(R(random.since_leader_start_s()), wait_s, reaction_s,
+                                            R(in.speed_mps - in.leader_speed_mps), R(in.gap_m - k.standstill_gap_m));
+        return in.speed_mps + k.acceleration_mps2 * dt * (1.0 - interaction * (1.0 - drives_off));
     }
 };
 

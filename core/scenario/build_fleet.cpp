@@ -134,7 +134,7 @@ DriverPlan driver_plan(const DriverSettings& settings, const PowertrainTables& v
     extend_by_power(settings.free_drive, available_mps2, driver.tables);
     driver.give_way = settings.give_way;
     driver.lane_change = settings.lane_change;
-    driver.hesitation_s = is_human ? std::max(settings.free_drive.hesitation_s, settings.human.reaction_s)
+    driver.hesitation_s = is_human ? std::max(settings.free_drive.hesitation_s, settings.human.start_reaction_s)
                                    : settings.free_drive.hesitation_s;
     driver.hesitation_ticks = to_ticks(driver.hesitation_s, step_s);
     return driver;

@@ -98,6 +98,7 @@ void set_meso(const MesoSettings& settings, Model& model) {
         return model.speed_factor * lane.limit_mps > model.calibrated_limit_mps;
     });
     model.start_relay_vehicles = settings.start_relay_vehicles;
+    model.powertrain_delay_s = settings.start_delay_s;
     for (DriverPlan& driver : model.drivers) {
         driver.hesitation_ticks = to_ticks(driver.hesitation_s + settings.start_delay_s, model.step_s);
     }

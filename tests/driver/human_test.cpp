@@ -71,29 +71,55 @@ TEST(HumanDriver, ErrorsChangeGraduallyAndVanishAtRest) {
     EXPECT_EQ(with_errors(h, {2.0, 0.0}, 0.0, DriverRandom{3, 5.0}).gap_m, 2.0);
 }
 
-// The leader accelerates evenly. A driver at rest starts after its reaction time.
+// A driver stands closed up behind its leader, and the leader starts. The driver starts after its reaction time.
 TEST(HumanDriver, StartsAfterItsReactionTime) {
-    const HumanSettings h;
-    const Human model{Idm{idm_parameters(h.idm, 2.0, 1.0)}, h};
     constexpr double kStep_s = 0.1;
-    for (const double acceleration_mps2 : {0.5, 2.0}) {
-        for (int vehicle = 0; vehicle < 20; ++vehicle) {
-            const double reaction_s = reaction_time_s(h, DriverRandom{vehicle, 0.0}.driver(0));
-            double leader_mps = 0.0;
-            double gap_m = 2.0;
-            double start_s = 0.0;
-            while (start_s < 5.0) {
-                const DriverRandom random{vehicle, start_s};
-                const FollowingInput in{0.0, gap_m, leader_mps, leader_mps > 0.0 ? acceleration_mps2 : 0.0,
-                                        0.0, 1e3,   14.0};
-                if (Human::following_speed_mps(model, in, random, kStep_s) > kMesoStopSpeed_mps) break;
-                leader_mps += acceleration_mps2 * kStep_s;
-                gap_m += leader_mps * kStep_s;
-                start_s += kStep_s;
-            }
-            EXPECT_NEAR(start_s, reaction_s, kStep_s) << vehicle;
-        }
+    constexpr double kReaction_s = 1.0;
+    int ticks = next_start_ticks(kStartedLongAgo_ticks, 0.0, 0.0, 0.0);
+    EXPECT_EQ(ticks, 0);
+    EXPECT_TRUE(waits_to_start(ticks, 0.0, kReaction_s, kStep_s));
+    for (int step = 1; step < 10; ++step) {
+        ticks = next_start_ticks(ticks, 0.0, 0.2 * step, 0.1 * step);
+        EXPECT_TRUE(waits_to_start(ticks, 0.0, kReaction_s, kStep_s)) << step;
     }
+    ticks = next_start_ticks(ticks, 0.0, 2.0, 1.0);
+    EXPECT_FALSE(waits_to_start(ticks, 0.0, kReaction_s, kStep_s));
+}
+
+// A driver drives off until its reaction time has passed, unless its leader becomes slower than itself.
+TEST(HumanDriver, DrivesOffForOneReactionTime) {
+    EXPECT_EQ(is_driving_off(0.7, 0.8, 1.0, -1.0, 0.1), 0.0);
+    EXPECT_EQ(is_driving_off(0.8, 0.8, 1.0, -1.0, 0.1), 1.0);
+    EXPECT_EQ(is_driving_off(1.7, 0.8, 1.0, 0.0, 0.1), 1.0);
+    EXPECT_EQ(is_driving_off(1.7, 0.8, 1.0, 0.1, 0.1), 0.0);
+    EXPECT_EQ(is_driving_off(1.81, 0.8, 1.0, -1.0, 0.1), 0.0);
+    EXPECT_EQ(is_driving_off(0.0, 0.0, 1.0, 0.0, 0.1), 0.0) << "the leader stands";
+    EXPECT_EQ(is_driving_off(1.0, 0.8, 1.0, 0.0, -0.1), 0.0) << "the gap is too short";
+    EXPECT_DOUBLE_EQ(view_age_s(-0.1, 1.0), 0.0);
+    EXPECT_DOUBLE_EQ(view_age_s(0.4, 1.0), 0.4);
+    EXPECT_DOUBLE_EQ(view_age_s(3.0, 1.0), 1.0);
+}
+
+// In equilibrium, the terms of n leaders at n times the gap add up to that of one leader.
+TEST(HumanDriver, KeepsTheSameGapBehindSeveralLeaders) {
+    for (const int leaders : {1, 2, 5, 10}) {
+        double sum = 0.0;
+        for (int n = 1; n <= leaders; ++n) {
+            const double factor = several_leaders_factor(leaders);
+            sum += idm_interaction(10.0, 0.0, n * 12.0, 2.0 * factor, 10.0 * factor, 0.5);
+        }
+        EXPECT_NEAR(sum, 1.0, 1e-12) << leaders;
+    }
+}
+
+// A leader that stops again during the reaction time ends the wait. A driver that stands far behind its leader does not
+// stand because of it, and has no reaction time to the leader's start.
+TEST(HumanDriver, WaitsOnlyForALeaderCloseAhead) {
+    const int waiting = next_start_ticks(0, 0.0, 1.0, 0.1);
+    EXPECT_EQ(waiting, 1);
+    EXPECT_EQ(next_start_ticks(waiting, 0.0, 0.0, 0.2), 0);
+    EXPECT_EQ(next_start_ticks(kStartedLongAgo_ticks, 0.0, 0.0, 20.0), kStartedLongAgo_ticks);
+    EXPECT_FALSE(waits_to_start(kStartedLongAgo_ticks, 0.0, 2.0, 0.01));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/containers/index.h"
+#include "driver/human.h"
 #include "scenario/build_model.h"
 #include "scenario/load_scenario.h"
 #include "sim/perception/reset_leader.h"
@@ -111,6 +112,7 @@ public:
         v.end_speed_mps[i] = 1e3F;
         v.policy[i] = policy;
         v.type[i] = type;
+        if (v.has_human_drivers) v.start_ticks[i] = kStartedLongAgo_ticks;
         v.id[i] = state.insertion.next_id++;
         v.record[i] = {};
         v.record[i].route = lane / 2;

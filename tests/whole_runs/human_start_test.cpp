@@ -1,14 +1,17 @@
-// The start of a queue of human drivers beside public data. The parameters of the drivers come from the literature
-// (driver/driver_settings.h) and are not fitted to these data:
+// The start of a queue of human drivers beside public data. Reaction time and time gap of the drivers come from the
+// literature, and their acceleration from standing starts of a single car (data/drivers/startup_kit.yaml). Nothing is
+// fitted to these data:
 //
+//   start delay      0.82 s and 1.01 s from the start of the leader to the own start, at standstill gaps of 1.48 m and
+//                    2.49 m with standard deviations of 1.30 m and 0.90 m (data/startup/standing_and_following.csv).
+//                    The start wave is the distance from front to front divided by this delay. So one standard
+//                    deviation of the gap around both means gives waves of 6.5 to 9.7 m/s for cars of 5.15 m.
+//   first headways   3.8 s, 3.1 s, 2.7 s and 2.4 s at the stop line, then 2.2 s and 2.1 s (Greenshields, Schapiro,
+//                    Ericksen 1947, "Traffic performance at urban street intersections"). The first one is from the
+//                    start of green. Their spread is not published; the test allows 20 %.
 //   discharge        24, 24 and 22 vehicles a lane in 70 s of green (issue 17830 of SUMO). A further lane lies between
-//                    18 and 29 with 95 % (prediction interval of three values).
-//   first headways   3.8 s, 3.1 s, 2.7 s and 2.4 s at the stop line (Greenshields, Schapiro, Ericksen 1947, "Traffic
-//                    performance at urban street intersections"). The first one is from the start of green.
-//   start wave       6.8 m/s, from drive-off measurements of Salles, Kaufmann, Reuss 2020
-//
-// The simulated start wave is slower and the headways are longer than in these data. The reason is the acceleration for
-// cities in the literature, 1 m/s2, which is less than half of that in measured standing starts (data/startup).
+//                    18 and 29 with 95 % (prediction interval of three values). The headways of 1947 give 31 vehicles.
+//                    The Highway Capacity Manual gives 36: saturation flow 1,900 vehicles/h, lost time 2 s.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -28,75 +31,110 @@ constexpr int kQueue = 60;
 
 struct QueueStart {
     double wave_mps = 0.0;               // speed of the start wave between the 5th and the 20th vehicle
-    std::array<double, 4> headways_s{};  // at the stop line; the first one is from the start of green
-    int passed = 0;                      // vehicles that pass the stop line within 70 s of green
+    std::array<double, 4> headways_s{};  // of the rears at the stop line; the first one is from the start of green
+    int passed = 0;                      // vehicles whose fronts pass the stop line within 70 s of green
 };
 
-QueueStart start_of(const std::string& policy, const std::vector<std::string>& overrides, double step_s) {
+// Returns the time at which the position of a point of the vehicle passes the stop line, from two successive positions.
+double passing_s(double before_m, double after_m, double line_m, double time_s, double step_s) {
+    return time_s - step_s * (after_m - line_m) / (after_m - before_m);
+}
+
+QueueStart start_of(const std::string& policy, const std::vector<std::string>& overrides) {
     TrackPlan plan;
     plan.policy = policy;
     plan.length_m = 600.0;
     plan.exit_m = 1500.0;
     plan.green_from_s = kGreen_s;
     plan.overrides = overrides;
-    plan.step_s = step_s;
     Track track(plan);
     track.place_platoon(0, plan.length_m - track.model().drivers[0].tables.stop.margin_m, 0.0, kQueue - 1);
+    const double length_m = track.model().vehicles[0].length_m;
     const double spacing_m = track.vehicle(0, 0).position_m - track.vehicle(0, 1).position_m;
     std::vector<double> start_s(kQueue, 0.0);
-    std::vector<double> passed_s;
+    std::vector<double> rear_m(kQueue, -1e3);
+    std::vector<double> rear_passed_s;
+    QueueStart result;
     while (track.time_s() < kGreen_s + kGreenTime_s) {
         track.step();
-        for (int k = 0; k < track.count(0); ++k) {
-            const VehicleView vehicle = track.vehicle(0, k);
-            if (vehicle.speed_mps > 0.1 && start_s[at(vehicle.id)] == 0.0) start_s[at(vehicle.id)] = track.time_s();
+        const auto watch = [&](const VehicleView& vehicle, double front_m) {
+            const std::size_t id = at(vehicle.id);
+            if (vehicle.speed_mps > 0.1 && start_s[id] == 0.0) start_s[id] = track.time_s();
+            const double before_m = rear_m[id];
+            rear_m[id] = front_m - length_m;
+            if (before_m < plan.length_m && rear_m[id] >= plan.length_m && before_m > 0.0)
+                rear_passed_s.push_back(passing_s(before_m, rear_m[id], plan.length_m, track.time_s(), track.step_s()));
+        };
+        for (int k = 0; k < track.count(1); ++k) {
+            const VehicleView vehicle = track.vehicle(1, k);
+            watch(vehicle, plan.length_m + vehicle.position_m);
         }
-        while (static_cast<int>(passed_s.size()) < kQueue - track.count(0)) passed_s.push_back(track.time_s());
+        for (int k = 0; k < track.count(0); ++k) watch(track.vehicle(0, k), track.vehicle(0, k).position_m);
+        result.passed = kQueue - track.count(0);
     }
-    QueueStart result;
     result.wave_mps = 15.0 * spacing_m / (start_s[19] - start_s[4]);
-    for (std::size_t k = 0; k < 4; ++k) result.headways_s[k] = passed_s[k] - (k == 0 ? kGreen_s : passed_s[k - 1]);
-    result.passed = static_cast<int>(passed_s.size());
+    for (std::size_t k = 0; k < 4; ++k)
+        result.headways_s[k] = rear_passed_s[k] - (k == 0 ? kGreen_s : rear_passed_s[k - 1]);
     return result;
 }
 
 const std::vector<std::string> kMeso{"fidelity=meso", "meso=fitted"};
+const std::vector<std::string> kFull{};
 constexpr std::array<double, 4> kHeadways_s{3.8, 3.1, 2.7, 2.4};
 
-TEST(HumanStart, DischargesAsManyVehiclesAsMeasured) {
-    const int full = start_of("HUMAN", {}, 0.01).passed;
-    EXPECT_GE(full, 18);
-    EXPECT_LE(full, 29);
-    const int meso = start_of("HUMAN", kMeso, 0.01).passed;
-    EXPECT_NEAR(meso, full, 4);
-    EXPECT_LT(meso, start_of("CTG-Ref", kMeso, 0.01).passed);
+class HumanStart : public ::testing::TestWithParam<bool> {
+protected:
+    static std::vector<std::string> fidelity() { return GetParam() ? kMeso : kFull; }
+};
+INSTANTIATE_TEST_SUITE_P(Fidelities, HumanStart, ::testing::Bool(),
+                         [](const auto& fidelity) { return fidelity.param ? "meso" : "full"; });
+
+TEST_P(HumanStart, DischargesWithinThePublicData) {
+    const int humans = start_of("HUMAN", fidelity()).passed;
+    EXPECT_GE(humans, 18);
+    EXPECT_LE(humans, 36);
+    EXPECT_LT(humans, start_of("CTG-Ref", fidelity()).passed);
 }
 
-TEST(HumanStart, HasTheMeasuredHeadwaysWithTheMeasuredAcceleration) {
-    const QueueStart cities = start_of("HUMAN", {}, 0.01);
-    const QueueStart starts = start_of("HUMAN", {"driver.human.idm.acceleration=2.5 m/s2"}, 0.01);
-    for (std::size_t k = 1; k < kHeadways_s.size(); ++k) {
-        EXPECT_GT(cities.headways_s[k], kHeadways_s[k] + 0.5) << k;
-        EXPECT_NEAR(starts.headways_s[k], kHeadways_s[k], 0.35) << k;
+TEST_P(HumanStart, HasTheMeasuredFirstHeadways) {
+    const QueueStart humans = start_of("HUMAN", fidelity());
+    for (std::size_t k = 0; k < kHeadways_s.size(); ++k) {
+        EXPECT_NEAR(humans.headways_s[k], kHeadways_s[k], 0.2 * kHeadways_s[k]) << k;
     }
 }
 
-// The start wave is slower than measured, and slower than with automated vehicles. Without reaction time it is faster.
-TEST(HumanStart, StartWaveIsSlowerThanMeasured) {
-    for (const std::vector<std::string>& fidelity : {std::vector<std::string>(), kMeso}) {
-        std::vector<std::string> at_once = fidelity;
-        at_once.insert(at_once.end(), {"driver.human.reaction=0 s", "driver.human.reaction_spread=0 s"});
-        const double human_mps = start_of("HUMAN", fidelity, 0.01).wave_mps;
-        EXPECT_GT(human_mps, 3.5);
-        EXPECT_LT(human_mps, 6.0);
-        EXPECT_GT(start_of("HUMAN", at_once, 0.01).wave_mps, human_mps + 0.3);
-        EXPECT_GT(start_of("CTG-Ref", fidelity, 0.01).wave_mps, 8.0);
-    }
+// Without a reaction time the start wave is faster, and with automated vehicles too.
+TEST_P(HumanStart, WaveIsSlowerThanWithAutomatedVehicles) {
+    std::vector<std::string> at_once = fidelity();
+    at_once.emplace_back("driver.human.start_reaction=0 s");
+    const double human_mps = start_of("HUMAN", fidelity()).wave_mps;
+    EXPECT_GT(start_of("HUMAN", at_once).wave_mps, human_mps + 1.0);
+    EXPECT_GT(start_of("CTG-Ref", fidelity()).wave_mps, human_mps + 1.0);
+}
+
+TEST(HumanStartWave, IsThatOfMeasurementsInFullDynamics) {
+    const double human_mps = start_of("HUMAN", kFull).wave_mps;
+    EXPECT_GT(human_mps, 6.5);
+    EXPECT_LT(human_mps, 9.7);
+}
+
+// In the mesoscale mode the delay of a start is the reaction time plus the delay of the powertrain, in whole steps.
+TEST(HumanStartWave, IsThatOfItsDelaysInTheMesoscaleMode) {
+    const std::vector<std::string> even{"fidelity=meso", "meso=fitted", "driver.human.reaction_spread=0 s"};
+    TrackPlan plan;
+    plan.policy = "HUMAN";
+    plan.overrides = even;
+    const Track track(plan);
+    const double delay_s = track.model().drivers[0].human.start_reaction_s + track.model().powertrain_delay_s;
+    const double spacing_m = track.model().vehicles[0].length_m + 2.0;
+    const double wave_mps = start_of("HUMAN", even).wave_mps;
+    EXPECT_LT(wave_mps, spacing_m / (delay_s - track.step_s()));
+    EXPECT_GT(wave_mps, spacing_m / (delay_s + 2.0 * track.step_s()));
 }
 
 // A leader stops as hard as the tyres allow. No human driver of the platoon behind it runs into its leader, although
 // some have a reaction time above their time gap (Track checks for overlaps).
-TEST(HumanStart, NobodyRunsIntoALeaderThatStopsHard) {
+TEST(HumanDrivers, NobodyRunsIntoALeaderThatStopsHard) {
     for (const std::vector<std::string>& fidelity : {std::vector<std::string>(), kMeso}) {
         for (const char* const reaction : {"driver.human.reaction=1 s", "driver.human.reaction=1.7 s"}) {
             TrackPlan plan;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "driver/human.h"
 #include "scenario/schema/field_rows.h"
 #include "scenario/schema/fields.h"
 #include "sim/mesoscale/following_families.h"
@@ -194,14 +195,18 @@ const Table& human_table() {
         "human drivers",
         {
             section<&S::idm>("idm", idm_table, "acceleration of human drivers"),
-            number<&S::reaction_s>("reaction", "s", {0, 2},
-                                   "mean reaction time, also of the first vehicle at a signal"),
+            number<&S::start_reaction_s>(
+                "start_reaction", "s", {0, 2},
+                "mean reaction time to the start of the vehicle ahead, or to the start of green"),
+            number<&S::reaction_s>("reaction", "s", {0, 2}, "mean reaction time while following"),
             number<&S::reaction_spread_s>("reaction_spread", "s", {0, 2},
                                           "the reaction times of drivers differ from the mean by up to this time"),
             number<&S::gap_error>("gap_error", "", {0, 0.5}, "standard deviation of the estimated gap, relative"),
             number<&S::closing_error_1ps>("closing_error", "1/s", {0, 0.1},
                                           "standard deviation of the estimated closing speed per metre of gap"),
             number<&S::error_time_s>("error_time", "s", {0.1, 1000}, "correlation time of both errors"),
+            whole_number<&S::anticipated_vehicles>("anticipated_vehicles", {1, kMaxAnticipatedVehicles},
+                                                   "full dynamics: number of vehicles ahead to which a driver reacts"),
         },
         [](const S& s, Checker& check) {
             if (s.reaction_spread_s > s.reaction_s) check.error("reaction_spread", "must be at most reaction");

@@ -108,7 +108,7 @@ void step_full(const Model& model, const FullTables& tables, const LaneGroup& la
     kernels.gather(streams, state.radar, state.v2v, lanes, model.step_s, group);
     evaluate_gap_laws(model, lanes.vehicles, group);
     apply_classes(model, lanes.vehicles, group);
-    see_as_humans(model, state, lanes.lanes, group);
+    react_as_humans(model, state, lanes.lanes, group);
     for (std::size_t k = 0; k < tables.drivers.size(); ++k) {
         const int only = tables.drivers.size() == 1 ? -1 : static_cast<int>(k);
         const auto plan = model.drivers[k].is_human ? kernels.plan_human : kernels.plan;

@@ -44,8 +44,7 @@ struct FullKernels {
     // apply to all vehicles.
     void (*plan)(const DriverTablesOf<float>&, const FullGroup&, int vehicles, double dt, int only, const FullStreams&,
                  NextSlots next);
-    // The same for human drivers (driver/human.h). FullGroup::gap and FullGroup::closing must be what the drivers see
-    // (human_perception.h).
+    // The same for human drivers (driver/human.h). FullGroup::interaction must be set (human_perception.h).
     void (*plan_human)(const DriverTablesOf<float>&, const FullGroup&, int vehicles, double dt, int only,
                        const FullStreams&, NextSlots next);
     // Vehicle: computes the response of the powertrain to the requests. `only`: index of the vehicle type to which the

@@ -226,28 +226,16 @@ STOPLINE_INLINE void plan_at(const DriverTablesOf<float>& d, const FullGroup& g,
 }
 
 // Computes the requested acceleration of human drivers, as plan_at() does for automated vehicles. Human drivers have no
-// V2V. FullGroup::gap and FullGroup::closing are what they see of the leader (human_perception.h). The intelligent
-// driver model gives the acceleration in free driving and behind a leader. A platoon leader starts with the measured
-// start-up profile instead.
+// V2V. FullGroup::interaction is their reaction to the vehicles ahead (human_perception.h). The intelligent driver
+// model gives the acceleration in free driving and behind a leader. A platoon leader starts with the measured start-up
+// profile instead.
 template <class R>
 STOPLINE_INLINE void plan_human_at(const DriverTablesOf<float>& d, const FullGroup& g, double dt, int only, int k) {
-    const CaccSettingsOf<float>& c = d.cacc;
     const auto get = [k](const auto* array) STOPLINE_INLINE_LAMBDA { return load<R>(array + k); };
     const R speed = get(g.speed);
     const R limit = get(g.limit);
-    LeaderView<R> p{};
-    p.gap_m = get(g.gap);
-    p.closing_mps = get(g.closing);
-    p.acceleration_mps2 = splat<R>(0.0);
-    p.request_mps2 = splat<R>(0.0);
-    p.rate_1ps = splat<R>(1.0);
     const R unconstrained = splat<R>(kUnconstrained_mps2);
-    const R standstill_gap = get(g.standstill_gap);
-    const R growth = max_of(get(g.desired_gap) - standstill_gap, 0.0);
-    const R interaction =
-        choose(STOPLINE_FLAG(R, p.gap_m > splat<R>(static_cast<double>(c.radar_range_m))), splat<R>(0.0),
-               idm_interaction(speed, p.closing_mps, p.gap_m, standstill_gap, growth,
-                               static_cast<double>(d.human.closing_s2pm)));
+    const R interaction = get(g.interaction);
     const R a = splat<R>(static_cast<double>(d.human.acceleration_mps2));
     const R follow = choose(STOPLINE_FLAG(R, interaction > 0.0), a * (1.0 - interaction), unconstrained);
     const R idm = a * (1.0 - idm_free_term(speed, limit) - interaction);
@@ -257,10 +245,9 @@ STOPLINE_INLINE void plan_human_at(const DriverTablesOf<float>& d, const FullGro
     if (any(STOPLINE_FLAG(R, end_speed < kUnconstrained_mps2))) {
         slow_down = slow_down_acceleration(d, speed, end_speed, get(g.to_next_limit));
     }
-    const R emergency = emergency_acceleration(c, speed, p);
     const R is_platoon_leader = get(g.is_platoon_leader) * STOPLINE_FLAG(R, follow > as_leader);
     const R drive = min_of(choose(is_platoon_leader, as_leader, idm), slow_down);
-    store_request(d, g, dt, only, k, min_of(min_of(drive, emergency), get(g.demand)), is_platoon_leader);
+    store_request(d, g, dt, only, k, min_of(drive, get(g.demand)), is_platoon_leader);
 }
 
 // Computes the response of the powertrains for a batch of vehicles that begins at place k. Changes only vehicles of the

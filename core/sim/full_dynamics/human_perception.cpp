@@ -1,6 +1,7 @@
 #include "sim/full_dynamics/human_perception.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -38,31 +39,97 @@ double evasive_mps2(const DriverPlan& driver, const VehicleArrays& v, int slot, 
                     keep_room_acceleration(limits, speed_mps, 0.0, leader));
 }
 
+// A human driver of a group.
+class HumanDriver {
+public:
+    HumanDriver(const Model& model, State& state, const DriverPlan& driver, int slot)
+        : model_(model),
+          state_(state),
+          v_(state.vehicles),
+          driver_(driver),
+          slot_(slot),
+          speed_mps_(v_.speed_mps[at(slot)]),
+          random_{driver_key(model.seed), v_.id[at(slot)], model.time_s(state.tick)},
+          reaction_s_(reaction_time_s(driver.human, random_.driver(0))),
+          wait_s_(start_reaction_s(driver.human, reaction_s_)) {}
+
+    // Stores the own speed. Returns true if the driver is at rest and waits to start behind its leader. `gap_m` is the
+    // measured net gap.
+    bool waits(double gap_m) {
+        int& ticks = v_.start_ticks[at(slot_)];
+        extra_gap_m_ = gap_m - static_cast<double>(v_.standstill_gap_m[at(slot_)]);
+        ticks = next_start_ticks(ticks, speed_mps_, v_.speed_mps[at(slot_ - 1)], extra_gap_m_);
+        v_.own_speed_mps[row_of_age(model_, state_, 0) + at(slot_)] = static_cast<float>(speed_mps_);
+        since_leader_start_s_ = ticks * model_.step_s;
+        return waits_to_start(ticks, speed_mps_, wait_s_, model_.step_s);
+    }
+
+    // Returns the sum of the terms (s* / s)^2 of the vehicles ahead. `leaders` is the number of vehicles whose
+    // measurements can be used: those from this vehicle to the first one of its lane. `growth_m` is the desired gap
+    // minus the standstill gap. Call waits() before.
+    double interaction(int leaders, double growth_m, double closing_mps) const {
+        if (is_driving_off(since_leader_start_s_, wait_s_, reaction_s_, closing_mps, extra_gap_m_) > 0.0) return 0.0;
+        const double age_s = view_age_s(since_leader_start_s_ - wait_s_, reaction_s_);
+        // The request takes effect a step later, so the measurement may be a step younger than its age.
+        const std::int64_t age = std::max<std::int64_t>(std::llround(age_s / model_.step_s) - 1, 0);
+        const std::size_t first = row_of_age(model_, state_, age) + at(slot_);
+        // The driver knows its own motion since then. The distance is computed with the mean of both speeds.
+        const double gained_mps = speed_mps_ - v_.own_speed_mps[first];
+        const double range_m = driver_.tables.cacc.radar_range_m;
+        const int most = std::min(driver_.human.anticipated_vehicles, leaders);
+        std::array<HumanView<double>, kMaxAnticipatedVehicles> views{};
+        HumanView<double> exact{-0.5 * age_s * gained_mps, gained_mps};
+        int seen = 0;
+        for (; seen < most; ++seen) {
+            const std::size_t i = first - at(seen);
+            exact.gap_m += v_.radar_gap_m[i] - age_s * v_.radar_closing_mps[i];
+            exact.closing_mps += v_.radar_closing_mps[i];
+            if (exact.gap_m > range_m) break;
+            const double leader_gap_m = seen == 0 ? exact.gap_m : views[0].gap_m;
+            views[at(seen)] = {std::max(exact.gap_m, (seen + 1) * leader_gap_m), exact.closing_mps};
+        }
+        const double factor = several_leaders_factor(seen);
+        const double standstill_m = factor * static_cast<double>(v_.standstill_gap_m[at(slot_)]);
+        double sum = 0.0;
+        for (int n = 0; n < seen; ++n) {
+            const HumanView<double> view = with_errors(driver_.human, views[at(n)], speed_mps_, random_);
+            sum += idm_interaction(speed_mps_, view.closing_mps, view.gap_m, standstill_m, factor * growth_m,
+                                   driver_.tables.human.closing_s2pm);
+        }
+        return sum;
+    }
+
+private:
+    const Model& model_;
+    const State& state_;
+    VehicleArrays& v_;
+    const DriverPlan& driver_;
+    int slot_;
+    double speed_mps_;
+    DriverRandom random_;
+    double reaction_s_;
+    double wait_s_;
+    double since_leader_start_s_ = 0.0;
+    double extra_gap_m_ = 0.0;
+};
+
 }  // namespace
 
-void see_as_humans(const Model& model, const State& state, std::span<const LaneStep> lanes, const FullGroup& group) {
-    const auto is_human = [](const DriverPlan& driver) { return driver.is_human; };
-    if (std::none_of(model.drivers.begin(), model.drivers.end(), is_human)) return;
-    const VehicleArrays& v = state.vehicles;
-    const std::uint64_t key = driver_key(model.seed);
+void react_as_humans(const Model& model, State& state, std::span<const LaneStep> lanes, const FullGroup& group) {
+    VehicleArrays& v = state.vehicles;
+    if (!v.has_human_drivers) return;
     std::size_t place = 0;
     for (const LaneStep& lane : lanes) {
         for (int slot = lane.begin; slot < lane.stop; ++slot, ++place) {
-            const DriverPlan& driver = model.driver_of(v.policy[at(slot)]);
-            if (!driver.is_human) continue;
-            const double evasive = evasive_mps2(driver, v, slot, group.gap[place], group.closing[place]);
+            const DriverPlan& plan = model.driver_of(v.policy[at(slot)]);
+            if (!plan.is_human) continue;
+            const double evasive = evasive_mps2(plan, v, slot, group.gap[place], group.closing[place]);
             group.demand[place] = std::min(group.demand[place], static_cast<float>(evasive));
-            const DriverRandom random{key, v.id[at(slot)], model.time_s(state.tick)};
-            const double reaction_s = reaction_time_s(driver.human, random.driver(0));
-            // The request takes effect a step later, so the measurement may be a step younger than the reaction time.
-            const std::int64_t age = std::max<std::int64_t>(std::llround(reaction_s / model.step_s) - 1, 0);
-            const std::size_t i = row_of_age(model, state, age) + at(slot);
-            const double closing_mps = v.radar_closing_mps[i];
-            const double gap_m = v.radar_gap_m[i] - reaction_s * closing_mps;
-            const HumanView<double> seen =
-                with_errors(driver.human, {gap_m, closing_mps}, v.speed_mps[at(slot)], random);
-            group.gap[place] = static_cast<float>(seen.gap_m);
-            group.closing[place] = static_cast<float>(seen.closing_mps);
+            HumanDriver driver(model, state, plan, slot);
+            if (driver.waits(group.gap[place])) group.demand[place] = std::min(group.demand[place], 0.0F);
+            const double growth_m = group.desired_gap[place] - static_cast<double>(group.standstill_gap[place]);
+            group.interaction[place] = static_cast<float>(
+                driver.interaction(slot - lane.begin + 1, std::max(growth_m, 0.0), group.closing[place]));
         }
     }
 }

@@ -1,6 +1,7 @@
 #include "sim/insertion/insert_vehicle.h"
 
 #include "base/containers/index.h"
+#include "driver/human.h"
 #include "sim/perception/reset_leader.h"
 #include "sim/state/lane_blocks.h"
 #include "sim/state/queries/passage.h"
@@ -25,6 +26,7 @@ int insert_vehicle(const Model& model, State& state, const NewVehicle& vehicle) 
     v.id[i] = state.insertion.next_id++;
     v.record[i] = {};
     v.lane_memory[i] = {};
+    if (v.has_human_drivers) v.start_ticks[i] = kStartedLongAgo_ticks;
     v.next_lane[i] = -1;
     v.record[i].route = vehicle.route;
     return slot;

@@ -10,6 +10,8 @@
 #include <bit>
 
 #include "base/containers/index.h"
+#include "base/random.h"
+#include "driver/human.h"
 #include "sim/mesoscale/meso_dynamics.h"
 #include "sim/performance/prefetch.h"
 
@@ -77,6 +79,7 @@ public:
           v_(state.vehicles),
           part_(part),
           lane_(lane),
+          driver_key_(driver_key(model.seed)),
           block_(state.blocks[at(lane)]),
           plan_(state.plan.lane(lane)),
           stop_slot_(state.stop_lines.stop_slot[at(lane)]),
@@ -89,6 +92,7 @@ public:
         int& sleep_group = state_.queues.sleeps_until_green[at(lane_)];
         if (sleep_group >= 0) {
             cap_aligning_vehicles(true);
+            cap_waiting_drivers(true);
             cap_behind_first();
             if (queue.end == block_.count) return;
             update_queue(v_, block_, state_.tick, queue);
@@ -98,6 +102,7 @@ public:
         // Removes the cap that held the first vehicle while the lane slept.
         v_.speed_cap_mps[at(first)] = kUnlimitedSpeed_mps;
         cap_aligning_vehicles(false);
+        cap_waiting_drivers(false);
         if (last_stopping_slot() > first + queue.first) queue.last_external_tick = state_.tick;
         update_queue(v_, block_, state_.tick, queue);
         const bool is_restrained = last_stopping_slot() >= first + queue.first;
@@ -145,6 +150,28 @@ private:
             if (sleeps && alignment.slot == block_.first && speed_mps == 0.0) continue;
             first_aligns_ = first_aligns_ || alignment.slot == block_.first;
             cap_speed(alignment.slot, std::max(alignment.target_speed_mps, speed_mps - braking_step_mps));
+        }
+    }
+
+    // Keeps human drivers at rest until their reaction time since the start of their leader and the delay of the
+    // powertrain have passed (driver/human.h). If the lane sleeps, skips its first vehicle, as cap_aligning_vehicles()
+    // does. A waiting driver is not part of the standing queue, because it may also start after its leader has stopped
+    // again.
+    void cap_waiting_drivers(bool sleeps) {
+        if (!v_.has_human_drivers) return;
+        for (int slot = block_.first; slot < block_.past_last(); ++slot) {
+            const std::size_t i = at(slot);
+            const DriverPlan& driver = model_.driver_of(v_.policy[i]);
+            if (!driver.is_human || (sleeps && slot == block_.first)) continue;
+            const double gap_m = v_.position_m[i - 1] - static_cast<double>(v_.length_m[i - 1]) - v_.position_m[i];
+            v_.start_ticks[i] = next_start_ticks(v_.start_ticks[i], v_.speed_mps[i], v_.speed_mps[i - 1],
+                                                 gap_m - static_cast<double>(v_.standstill_gap_m[i]));
+            const double reaction_s = reaction_time_s(driver.human, keyed_uniform(driver_key_, v_.id[i], 0));
+            const double wait_s = start_reaction_s(driver.human, reaction_s) + model_.powertrain_delay_s;
+            if (v_.start_ticks[i] == 0 || !waits_to_start(v_.start_ticks[i], v_.speed_mps[i], wait_s, model_.step_s))
+                continue;
+            cap_speed(slot, 0.0);
+            state_.queues.standing[at(lane_)].last_external_tick = state_.tick;
         }
     }
 
@@ -206,6 +233,7 @@ private:
     VehicleArrays& v_;
     Partition& part_;
     int lane_;
+    std::uint64_t driver_key_;
     const LaneBlock& block_;
     const LanePlan& plan_;
     int stop_slot_;

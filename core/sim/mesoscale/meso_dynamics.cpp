@@ -56,9 +56,18 @@ double leading_speed_mps(const Model& model, double speed_mps, double limit_mps)
 }
 
 MesoStreams meso_streams(VehicleArrays& v) {
-    return {v.position_m.data(),        v.speed_mps.data(), v.limit_mps.data(),     v.next_limit_m.data(),
-            v.speed_cap_mps.data(),     v.length_m.data(),  v.end_speed_mps.data(), v.acceleration_mps2.data(),
-            v.is_platoon_leader.data(), v.id.data(),        v.policy.data()};
+    return {v.position_m.data(),
+            v.speed_mps.data(),
+            v.limit_mps.data(),
+            v.next_limit_m.data(),
+            v.speed_cap_mps.data(),
+            v.length_m.data(),
+            v.end_speed_mps.data(),
+            v.acceleration_mps2.data(),
+            v.is_platoon_leader.data(),
+            v.id.data(),
+            v.policy.data(),
+            v.has_human_drivers ? v.start_ticks.data() : nullptr};
 }
 
 MesoStep meso_step(const Model& model, std::int64_t tick, bool prefetches) {

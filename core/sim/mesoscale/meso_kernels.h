@@ -20,6 +20,7 @@ struct MesoStreams {
     const float *length, *end_speed;
     float *acceleration, *is_platoon_leader;
     const int *id, *policy;
+    const int* start_ticks;  // nullptr in runs without human drivers
 };
 
 // Constants of one step. SI units.

@@ -22,16 +22,20 @@ namespace stopline {
 
 namespace {
 
-// The random numbers of the vehicles of a block. They are uniform in [0, 1).
+// The random numbers of the vehicles of a block, uniform in [0, 1), and the times since their leaders began to move.
 template <class R>
 struct BlockRandom {
     const MesoStep& t;
     const int* id;
+    const int* start_ticks;
 
     STOPLINE_INLINE R dawdle() const { return uniform(t.key, t.tick); }
     // Returns number `index` of each driver (driver/human.h).
     STOPLINE_INLINE R driver(std::uint64_t index) const { return uniform(t.driver_key, index); }
     STOPLINE_INLINE double time_s() const { return static_cast<double>(t.tick) * t.dt; }
+    STOPLINE_INLINE R since_leader_start_s() const {
+        return start_ticks == nullptr ? R(1e9) : R(get<R>(start_ticks) * t.dt);
+    }
 
 private:
     STOPLINE_INLINE R uniform(std::uint64_t key, std::uint64_t index) const {
@@ -174,7 +178,7 @@ struct Block {
     // Returns the next speeds if all vehicles have the parameters `k`. `has_policy`: see platoon_leader_speed().
     template <class Following, bool power_limit, class Model>
     STOPLINE_INLINE R next_speed_mps(const Model& k, const R& has_policy) const {
-        const BlockRandom<R> random{t, s.id + i};
+        const BlockRandom<R> random{t, s.id + i, s.start_ticks == nullptr ? nullptr : s.start_ticks + i};
         const R following_mps = Following::following_speed_mps(k, in, random, t.dt);
         const R lowest_mps = in.speed_mps - t.hardest_mps2 * t.dt;
         const R desired_mps =
@@ -337,7 +341,7 @@ inline void follow(const FollowingModel& model, const MesoStep& step, const Foll
                                         get<R>(in.leader_speed_mps + i), get<R>(in.leader_acceleration_mps2 + i),
                                         get<R>(in.extra_gap_m + i),      get<R>(in.speed_cap_mps + i),
                                         get<R>(in.limit_mps + i)};
-        const BlockRandom<R> random{t, ids.data() + i};
+        const BlockRandom<R> random{t, ids.data() + i, nullptr};
         const R following_mps = Following::following_speed_mps(k, input, random, t.dt);
         const R desired_mps = Following::template desired_speed_mps<true>(k, input, following_mps, t.dt, R(0.0));
         put(next_mps + i,

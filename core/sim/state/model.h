@@ -1,6 +1,7 @@
 // The constant data of a run, compiled from a scenario. Any number of runs and threads can share a Model.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -122,7 +123,8 @@ struct Model {
     bool has_fast_lanes = false;  // true: on some lanes, limit times speed_factor exceeds calibrated_limit_mps
     // [policy] highest accelerations of the vehicles; empty: the car-following models alone limit the accelerations.
     std::vector<LeaderProfile> acceleration_limits;
-    LeaderProfile power_profile;  // lower bound of the acceleration on these fast lanes, by speed
+    double powertrain_delay_s = 0.0;  // mesoscale mode: start-up delay of a vehicle (MesoSettings::start_delay_s)
+    LeaderProfile power_profile;      // lower bound of the acceleration on these fast lanes, by speed
     // Acceleration of platoon leaders by speed. If this table is not empty (bins_per_mps above 0), it replaces
     // leader_mps2 and leader_constant_power_speed_mps.
     LeaderProfile leader_profile;
@@ -130,6 +132,9 @@ struct Model {
     // no messages.
     int start_relay_vehicles = 0;
 
+    bool has_human_drivers() const {
+        return std::any_of(drivers.begin(), drivers.end(), [](const DriverPlan& driver) { return driver.is_human; });
+    }
     // Returns the driver of the vehicles with a spacing policy.
     const DriverPlan& driver_of(int policy) const {
         return drivers[drivers.size() == 1

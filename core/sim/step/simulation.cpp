@@ -170,6 +170,7 @@ std::uint64_t Simulation::state_hash() const {
             hash.add(v.position_m[i]);
             hash.add(v.speed_mps[i]);
             hash.add(v.acceleration_mps2[i]);
+            if (v.has_human_drivers) hash.add(v.start_ticks[i]);
             if (model_.meso) continue;
             for (const float value :
                  {v.gear[i], v.request_mps2[i], v.torque_Nm[i], v.brake_N[i], v.gear_time_s[i], v.lag_s[i]}) {

@@ -73,11 +73,12 @@ TEST_P(BrakingPlatoon, StopsWithoutTouching) {
         }
     }
     const double standstill_gap_m = equilibrium_gap_m(track.model().policies[0].settings, 0.0);
+    const double tolerance_m = is_human(GetParam().policy) ? 0.35 : 0.15;  // human drivers learn late how others brake
     for (int k = 0; k < 3; ++k) {
         EXPECT_GT(smallest_gap_m[at(k)], kMinGap_m[k]) << "braking with " << kBraking_mps2[k];
         for (int n = 1; n <= kFollowers; ++n) {
             EXPECT_LT(track.vehicle(2 * k, n).speed_mps, 0.01) << "follower " << n;
-            EXPECT_LT(track.vehicle(2 * k, n).gap_m, standstill_gap_m + 0.15) << "follower " << n;
+            EXPECT_LT(track.vehicle(2 * k, n).gap_m, standstill_gap_m + tolerance_m) << "follower " << n;
         }
     }
     // An automated follower with a time gap of about one second need not repeat the emergency braking of its leader.

@@ -57,7 +57,8 @@ FullGroup FullGroupArrays::streams() {
                                 &s.sent_rate,
                                 &s.mean_request,
                                 &s.sent_acceleration,
-                                &s.sent_request});
+                                &s.sent_request,
+                                &s.interaction});
     divide(ints_, vehicles_, {&s.policy, &s.type, &s.driver});
     return s;
 }

@@ -26,6 +26,7 @@ struct FullGroup {
     float* mean_request;                                  // mean request within the step, for the powertrain
     float *sent_acceleration, *sent_request, *sent_rate;  // V2V message to the follower
     int *policy, *type, *driver;
+    float* interaction;  // human drivers: sum of the terms (s* / s)^2 (driver/human.h)
     // Desired gap of the spacing policy, and its slope over speed.
     double *desired_gap, *slope;
     // Scratch memory for groups with several policies. The spacing law of the first vehicle's policy writes directly to

@@ -12,6 +12,7 @@ void VehicleArrays::for_each_common(Visit visit) {
         visit(is_platoon_leader);
     visit(policy), visit(id), visit(next_lane), visit(record), visit(lane_memory), visit(stopped_since),
         visit(standstill_gap_m), visit(type);
+    if (has_human_drivers) visit(start_ticks);
 }
 
 template <class Visit>
@@ -35,6 +36,7 @@ void VehicleArrays::resize(int slot_count, int radar_row_count, int v2v_row_coun
     // therefore not be 0.
     lag_s.assign(n, 1.0F);
     for (auto* rows : {&radar_gap_m, &radar_closing_mps}) rows->assign(n * static_cast<std::size_t>(radar_rows), 0.0F);
+    if (stores_own_speed()) own_speed_mps.assign(n * static_cast<std::size_t>(radar_rows), 0.0F);
     for (auto* rows : {&v2v_acceleration_mps2, &v2v_request_mps2, &v2v_rate_1ps}) {
         rows->assign(n * static_cast<std::size_t>(v2v_rows), 1.0F);
     }
@@ -66,6 +68,7 @@ void VehicleArrays::copy(int from, int to) {
     for (int r = 0; r < radar_rows; ++r) {
         radar_gap_m[row(r, to)] = radar_gap_m[row(r, from)];
         radar_closing_mps[row(r, to)] = radar_closing_mps[row(r, from)];
+        if (stores_own_speed()) own_speed_mps[row(r, to)] = own_speed_mps[row(r, from)];
     }
     for (int r = 0; r < v2v_rows; ++r) {
         v2v_acceleration_mps2[row(r, to)] = v2v_acceleration_mps2[row(r, from)];
@@ -96,6 +99,7 @@ void VehicleArrays::move(int from, int count, int to) {
     }
     for_each_powertrain([&](auto& array) { moved(array, 0); });
     for (int r = 0; r < radar_rows; ++r) moved(radar_gap_m, r), moved(radar_closing_mps, r);
+    for (int r = 0; r < radar_rows && stores_own_speed(); ++r) moved(own_speed_mps, r);
     for (int r = 0; r < v2v_rows; ++r) {
         moved(v2v_acceleration_mps2, r), moved(v2v_request_mps2, r), moved(v2v_rate_1ps, r);
     }
@@ -106,6 +110,12 @@ void VehicleArrays::reset_radar(int slot, double gap_m, double closing_mps) {
         radar_gap_m[row(r, slot)] = static_cast<float>(gap_m);
         radar_closing_mps[row(r, slot)] = static_cast<float>(closing_mps);
     }
+}
+
+void VehicleArrays::reset_own_speed(int slot) {
+    if (!stores_own_speed()) return;
+    const auto speed_now_mps = static_cast<float>(speed_mps[static_cast<std::size_t>(slot)]);
+    for (int r = 0; r < radar_rows; ++r) own_speed_mps[row(r, slot)] = speed_now_mps;
 }
 
 void VehicleArrays::reset_powertrain(int slot, const PowertrainTables& vehicle, double speed) {

@@ -50,7 +50,8 @@ struct VehicleArrays {
     LargeArray<float> radar_closing_mps;
     LargeArray<float> v2v_acceleration_mps2;
     LargeArray<float> v2v_request_mps2;
-    LargeArray<float> v2v_rate_1ps;  // 1 / lag_s
+    LargeArray<float> v2v_rate_1ps;   // 1 / lag_s
+    LargeArray<float> own_speed_mps;  // in the rows of the radar; only in runs with human drivers
     // A step reads these values only for some vehicles, mainly for the first vehicles of a lane and for vehicles that
     // change the lane or the route. Full dynamics also reads the standstill gap of all vehicles, and their type if the
     // model has several types.
@@ -62,10 +63,13 @@ struct VehicleArrays {
     LargeArray<int> stopped_since;  // latest tick at which the vehicle was observed in motion
     LargeArray<float> standstill_gap_m;
     LargeArray<int> type;
+    // Runs with human drivers only: number of steps since the vehicle ahead began to move (driver/human.h).
+    LargeArray<int> start_ticks;
 
     int slots = 0;
     int radar_rows = 0;  // 0 in the mesoscale mode
     int v2v_rows = 0;    // 0 in the mesoscale mode
+    bool has_human_drivers = false;
 
     // Full dynamics: sets the number of slots and of rows, and resets all values.
     void resize(int slot_count, int radar_row_count, int v2v_row_count);
@@ -74,6 +78,8 @@ struct VehicleArrays {
     // Mesoscale mode: adds free slots at the end.
     void grow(int slot_count);
     bool has_powertrain() const { return v2v_rows > 0; }
+    // Fills all rows of own_speed_mps with the present speed. Does nothing in runs without human drivers.
+    void reset_own_speed(int slot);
     // Copies a vehicle to a slot of another lane, without the values that depend on the lane.
     void copy(int from, int to);
     // Moves vehicles in consecutive slots to other slots of the same lane.
@@ -91,6 +97,8 @@ struct VehicleArrays {
     void reset_radar(int slot, double gap_m, double closing_mps);
     // Fills all rows of the V2V delay line with the present state of the vehicle.
     void reset_v2v(int slot);
+
+    bool stores_own_speed() const { return has_human_drivers && radar_rows > 0; }
 
     std::size_t row(int row_index, int slot) const {
         return static_cast<std::size_t>(row_index) * static_cast<std::size_t>(slots) + static_cast<std::size_t>(slot);
