@@ -29,10 +29,10 @@
 //
 // Start. A driver at rest behind its leader begins to accelerate one start reaction time after the leader has begun to
 // move. It then drives off: until a reaction time has passed, it accelerates as without a leader, unless the leader is
-// slower than itself or the gap is shorter than the standstill gap. Otherwise the reaction would count twice, because the intelligent driver model alone starts as
-// late as measured drivers: its acceleration grows with the gap. Measured followers accelerate at once
-// (data/startup/stuttgart_curve.csv). In full dynamics the powertrain adds its delay. In the mesoscale mode
-// MesoSettings::start_delay_s takes its place.
+// slower than itself or the gap is shorter than the standstill gap. Otherwise the reaction would count twice, because
+// the intelligent driver model alone starts as late as measured drivers: its acceleration grows with the gap. Measured
+// followers accelerate at once (data/startup/stuttgart_curve.csv). In full dynamics the powertrain adds its delay. In
+// the mesoscale mode MesoSettings::start_delay_s takes its place.
 #pragma once
 
 #include <array>
