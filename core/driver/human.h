@@ -22,10 +22,9 @@
 // speed up to kFullErrorSpeed_mps.
 //
 // Each driver has its own reaction time, uniform within reaction_s +- reaction_spread_s. Its reaction time at the start
-// differs from start_reaction_s by the same share. Full dynamics stores the
-// measurements of past steps, so a driver sees them tau late (sim/full_dynamics/human_perception.h). The mesoscale mode
-// stores no past. There, a driver in motion has no delay and one leader, because the anticipation compensates for the
-// delay (main result of the source).
+// differs from start_reaction_s by the same share. Full dynamics stores the measurements of past steps, so a driver
+// sees them tau late (sim/full_dynamics/human_perception.h). The mesoscale mode stores no past. There, a driver in
+// motion has no delay and one leader, because the anticipation compensates for the delay (main result of the source).
 //
 // Start. A driver at rest behind its leader begins to accelerate one start reaction time after the leader has begun to
 // move. It then drives off: until a reaction time has passed, it accelerates as without a leader, unless the leader is
