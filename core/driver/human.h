@@ -81,9 +81,9 @@ inline int next_start_ticks(int ticks, double speed_mps, double leader_speed_mps
     return ticks < kStartedLongAgo_ticks ? ticks + 1 : ticks;
 }
 
-// Returns true for a driver at rest if its leader stands closely ahead, or has started less than `wait_s` ago.
+// Returns true if the leader of a driver at rest has started, but less than `wait_s` ago.
 inline bool waits_to_start(int start_ticks, double speed_mps, double wait_s, double step_s) {
-    return speed_mps <= kMesoStopSpeed_mps && (start_ticks + 0.5) * step_s < wait_s;
+    return speed_mps <= kMesoStopSpeed_mps && start_ticks > 0 && (start_ticks + 0.5) * step_s < wait_s;
 }
 
 // Returns the age of what a driver sees: the time since its own start, but at most its reaction time.

@@ -77,7 +77,7 @@ TEST(HumanDriver, StartsAfterItsReactionTime) {
     constexpr double kReaction_s = 1.0;
     int ticks = next_start_ticks(kStartedLongAgo_ticks, 0.0, 0.0, 0.0);
     EXPECT_EQ(ticks, 0);
-    EXPECT_TRUE(waits_to_start(ticks, 0.0, kReaction_s, kStep_s));
+    EXPECT_FALSE(waits_to_start(ticks, 0.0, kReaction_s, kStep_s));
     for (int step = 1; step < 10; ++step) {
         ticks = next_start_ticks(ticks, 0.0, 0.2 * step, 0.1 * step);
         EXPECT_TRUE(waits_to_start(ticks, 0.0, kReaction_s, kStep_s)) << step;

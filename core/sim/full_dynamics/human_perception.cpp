@@ -76,7 +76,8 @@ public:
         // The driver knows its own motion since then. The distance is computed with the mean of both speeds.
         const double gained_mps = speed_mps_ - v_.own_speed_mps[first];
         const double range_m = driver_.tables.cacc.radar_range_m;
-        const int most = std::min(driver_.human.anticipated_vehicles, leaders);
+        // A driver behind a standing leader does not start because vehicles further ahead have started.
+        const int most = since_leader_start_s_ == 0.0 ? 1 : std::min(driver_.human.anticipated_vehicles, leaders);
         std::array<HumanView<double>, kMaxAnticipatedVehicles> views{};
         HumanView<double> exact{-0.5 * age_s * gained_mps, gained_mps};
         int seen = 0;

@@ -168,8 +168,7 @@ private:
                                                  gap_m - static_cast<double>(v_.standstill_gap_m[i]));
             const double reaction_s = reaction_time_s(driver.human, keyed_uniform(driver_key_, v_.id[i], 0));
             const double wait_s = start_reaction_s(driver.human, reaction_s) + model_.powertrain_delay_s;
-            if (v_.start_ticks[i] == 0 || !waits_to_start(v_.start_ticks[i], v_.speed_mps[i], wait_s, model_.step_s))
-                continue;
+            if (!waits_to_start(v_.start_ticks[i], v_.speed_mps[i], wait_s, model_.step_s)) continue;
             cap_speed(slot, 0.0);
             state_.queues.standing[at(lane_)].last_external_tick = state_.tick;
         }
