@@ -103,4 +103,9 @@ struct Human : Idm {
     }
 };
 
+template <>
+struct FollowingAt<2> {
+    using Trait = Human;
+};
+
 }  // namespace stopline
