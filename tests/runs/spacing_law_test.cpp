@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/input_error.h"
+#include "base/io/csv.h"
 #include "runs/run_metrics.h"
 #include "runs/short_scenario.h"
 #include "scenario/schema/fields.h"
@@ -65,6 +66,21 @@ TEST_P(SpacingLaw, RunsInBothFidelities) {
     for (std::size_t k = 0; k < own.size(); ++k) EXPECT_EQ(own[k].value, known[k].value) << own[k].column;
     const std::vector<RunMetric> other = run_metrics(with_policy("law: constant_time, time_gap: 1 s", GetParam()), 0);
     EXPECT_NE(own.back().value, other.back().value) << own.back().column;
+}
+
+// A formula and a table need no code. They equal the law of the same gap except for rounding.
+TEST_P(SpacingLaw, IsWrittenInTheScenario) {
+    const std::vector<RunMetric> known = run_metrics(with_policy("law: constant_time, time_gap: 1.1 s", GetParam()), 0);
+    for (const char* const law : {"law: formula, gap: s0 + 1.1 s * v, mesoscale: time_gap",
+                                  "law: table, gaps: {36 km/h: 14 m, 72 km/h: 25 m}, mesoscale: time_gap"}) {
+        const std::vector<RunMetric> own = run_metrics(with_policy(law, GetParam()), 0);
+        ASSERT_EQ(own.size(), known.size());
+        for (std::size_t k = 0; k < own.size(); ++k) {
+            if (own[k].column == "state_hash") continue;
+            EXPECT_NEAR(parse_number(own[k].value).value_or(-1.0), parse_number(known[k].value).value_or(-1.0), 1e-3)
+                << own[k].column << " of " << law;
+        }
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(BothFidelities, SpacingLaw, testing::Values("full", "meso"),
