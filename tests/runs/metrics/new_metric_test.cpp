@@ -85,6 +85,7 @@ TEST(NewMetric, OfAGreenTimeAppearsEverywhere) {
     report.populations.resize(1);
     report.populations[0].name = "CDG";
     report.populations[0].passed = {3, 6, 9};
+    report.populations[0].improvement_percent = {0.0, 0.0, 0.0};
     MetricList<MeasuredGreen> metrics = green_metrics();
     metrics.push_back({.column = "axles_m",
                        .unit = "m",
