@@ -59,16 +59,19 @@ std::string DrawnMetric::axis(std::string_view name) const {
 }
 
 std::string axis_title(std::string_view column) {
-    for (const bool is_of_family : {false, true}) {
-        for (const MetricGroup& group : metric_groups()) {
-            for (const DrawnMetric& metric : group.drawn) {
-                if (metric.placeholder.empty() == is_of_family || !metric.has(column)) continue;
-                const std::string unit = metric.unit.empty() ? "" : fmt::format(" [{}]", metric.unit);
-                return metric.axis(column) + unit;
-            }
+    const auto key_size = [&](const DrawnMetric& metric) {
+        return metric.placeholder.empty() ? 0 : key_in(column, metric.column, metric.placeholder).size();
+    };
+    // The metric with the shortest key fits best: travel_time_94m_s is travel_time_RADIUSm_s, not
+    // travel_time_STRETCH_s.
+    const DrawnMetric* best = nullptr;
+    for (const MetricGroup& group : metric_groups()) {
+        for (const DrawnMetric& metric : group.drawn) {
+            if (metric.has(column) && (best == nullptr || key_size(metric) < key_size(*best))) best = &metric;
         }
     }
-    return std::string(column);
+    if (best == nullptr) return std::string(column);
+    return best->axis(column) + (best->unit.empty() ? "" : fmt::format(" [{}]", best->unit));
 }
 
 bool has_mean(std::string_view column) {
