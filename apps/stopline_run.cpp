@@ -303,9 +303,9 @@ struct Reporter {
 };
 
 const Reporter& reporter_of(const Scenario& scenario) {
-    static constexpr std::array kReporters{Reporter{"single_light", run_as_single_light, false},
-                                           Reporter{"intersection", run_as_intersection, false},
-                                           Reporter{"network", run_as_network, true}};
+    static constexpr std::array kReporters{Reporter{kRunAsSingleLight, run_as_single_light, false},
+                                           Reporter{kRunAsIntersection, run_as_intersection, false},
+                                           Reporter{kRunAsNetwork, run_as_network, true}};
     const std::string_view name = run_kind(scenario).name;
     return *std::find_if(kReporters.begin(), kReporters.end(), [&](const Reporter& one) { return one.name == name; });
 }

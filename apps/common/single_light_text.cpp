@@ -20,21 +20,6 @@ std::string signed_number_cell(double value, int decimals) {
     return std::isnan(value) ? "-" : fmt::format("{:+.{}f}", value, decimals);
 }
 
-// Returns true if the queue empties before the green time ends. In that case more vehicles would pass if the queue were
-// longer.
-bool queue_empties_within(const PopulationSummary& summary, double green_s) { return summary.emptied_s < green_s; }
-
-void append_improvements(const SingleLightReport& result, const PopulationSummary& summary,
-                         std::vector<std::string>& cells) {
-    const PopulationSummary& baseline = result.populations[*result.baseline];
-    cells.emplace_back("|");
-    for (std::size_t k = 0; k < summary.improvement_percent.size(); ++k) {
-        const double green_s = result.scenario.measure.green_s[k];
-        const bool limited = queue_empties_within(summary, green_s) || queue_empties_within(baseline, green_s);
-        cells.push_back(signed_number_cell(summary.improvement_percent[k], 0) + (limited ? "*" : ""));
-    }
-}
-
 // Returns a text that names the populations in which some vehicles keep far larger gaps than their policies demand.
 // Returns "" if there are no such vehicles.
 std::string open_gaps_text(const SingleLightReport& result) {
@@ -54,32 +39,33 @@ std::string open_gaps_text(const SingleLightReport& result) {
 std::string counts_text(const SingleLightReport& result) {
     const std::vector<double>& green_s = result.scenario.measure.green_s;
     if (green_s.empty()) return "";
-    TextTable table;
+    const std::vector<MeasuredGreen> runs = measured_greens(result);
+    std::string title;
+    std::string notes;
     std::vector<std::string> head{"population"};
-    for (const double green : green_s) head.push_back(fmt::format("{:.4g} s", green));
-    if (result.baseline) {
-        head.emplace_back("|");
-        for (const double green : green_s) head.push_back(fmt::format("{:.4g} s", green));
-    }
-    table.add_row(head);
-    bool any_limited = false;
-    for (const PopulationSummary& summary : result.populations) {
-        std::vector<std::string> cells{summary.name};
-        for (std::size_t k = 0; k < green_s.size(); ++k) {
-            const bool limited = queue_empties_within(summary, green_s[k]);
-            cells.push_back(std::to_string(summary.passed[k]) + (limited ? "*" : ""));
-            any_limited = any_limited || limited;
+    std::vector<std::vector<std::string>> rows;
+    for (const PopulationSummary& summary : result.populations) rows.push_back({summary.name});
+    for (const auto& column : console_columns(green_metrics(), result.scenario, ConsoleTable::results)) {
+        const std::string heading = column.console_heading();
+        if (heading.find(kTheBaseline) != std::string::npos && !result.baseline) continue;
+        if (!title.empty()) {
+            title += " | ";
+            head.emplace_back("|");
+            for (std::vector<std::string>& row : rows) row.emplace_back("|");
         }
-        if (result.baseline) append_improvements(result, summary, cells);
-        table.add_row(cells);
+        title += result.baseline ? with_key(heading, kTheBaseline, result.populations[*result.baseline].name) : heading;
+        for (const double green : green_s) head.push_back(fmt::format("{:.4g} s", green));
+        bool has_mark = false;
+        for (std::size_t k = 0; k < runs.size(); ++k) {
+            rows[k / green_s.size()].push_back(column.console_cell(runs[k]));
+            has_mark = has_mark || rows[k / green_s.size()].back().ends_with('*');
+        }
+        if (has_mark && !column.console_note().empty()) notes += "  " + column.console_note() + "\n";
     }
-    std::string text = "Vehicles passed within the green time";
-    if (result.baseline) text += fmt::format(" | improvement over {} [%]", result.populations[*result.baseline].name);
-    text += "\n" + table.text();
-    if (any_limited) {
-        text += "  *: the queue empties before the green time ends; more demand.vehicles would raise the count\n";
-    }
-    return text + "\n";
+    TextTable table;
+    table.add_row(head);
+    for (const std::vector<std::string>& row : rows) table.add_row(row);
+    return title + "\n" + table.text() + notes + "\n";
 }
 
 std::string ideal_text(const SingleLightReport& result) {

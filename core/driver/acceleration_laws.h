@@ -117,10 +117,8 @@ STOPLINE_INLINE R slow_down_acceleration(const DriverTablesOf<Number>& d, const 
     return (allowed_mps - speed_mps) - b * speed_mps / max_of(allowed_mps, 1.0);
 }
 
-inline constexpr double kLandingTime_s = 0.5;  // tau of stop_acceleration()
-
 // Returns the acceleration for a stop after `distance_m`. The vehicle follows the speed curve
-//     v_s = -b tau + sqrt((b tau)^2 + 2 b distance).
+//     v_s = -b tau + sqrt((b tau)^2 + 2 b distance), where tau is kBrakingReaction_s.
 // A vehicle that keeps the speed v_s for the time tau and then brakes with b stops exactly at that distance, without
 // overshoot. v_s is the safe speed of Krauss 1998 behind a stopped obstacle. On the curve, the vehicle decelerates with
 // b v / (v_s + b tau). If the vehicle has already passed the stopping point, b is added to the braking.
@@ -132,7 +130,7 @@ template <class R, class Number>
 STOPLINE_INLINE R stop_acceleration(const DriverTablesOf<Number>& d, const R& speed_mps, const R& distance_m) {
     constexpr double kSpeedGain_1ps = 1.5;
     const double b = d.stop.deceleration_mps2;
-    const double bt = b * kLandingTime_s;
+    const double bt = b * kBrakingReaction_s;
     const R curve_mps = square_root(square(bt) + 2.0 * b * max_of(distance_m, 0.0)) - bt;
     const R late = select(distance_m > 0.0, splat<R>(0.0), splat<R>(-b));
     return late + kSpeedGain_1ps * (curve_mps - speed_mps) - b * speed_mps / (curve_mps + bt);
@@ -149,7 +147,7 @@ inline double stop_at_line_acceleration(const DriverTables& d, double speed_mps,
 // Returns the stopping distance along the curve of stop_acceleration(): v^2 / (2 b) + v tau.
 template <class R, class Number>
 STOPLINE_INLINE R stopping_distance_m(const DriverTablesOf<Number>& d, const R& speed_mps) {
-    return speed_mps * (speed_mps * (0.5 / d.stop.deceleration_mps2) + kLandingTime_s);
+    return speed_mps * (speed_mps * (0.5 / d.stop.deceleration_mps2) + kBrakingReaction_s);
 }
 
 inline constexpr double kStoppingLeader_mps = 5.0;

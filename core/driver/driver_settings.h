@@ -36,6 +36,10 @@ struct CaccSettingsOf {
 };
 using CaccSettings = CaccSettingsOf<double>;
 
+// Reaction time tau of the speed curves on which vehicles brake to a stop: stop_acceleration() in full dynamics
+// (acceleration_laws.h), and the IDM before a stop line (idm.h).
+inline constexpr double kBrakingReaction_s = 0.5;
+
 // Driving without a leader: the acceleration as a function of speed (the calibrated start-up of Section III.B).
 struct FreeDriveSettings {
     std::vector<double> speed_mps;          // nodes of the profile, rising from 0

@@ -2,8 +2,8 @@
 // struct such as Krauss (krauss.h) or Idm (idm.h) holds its parameters and equations. The kernels are compiled for each
 // trait struct, so no call per vehicle is virtual. All other code uses FollowingModel, which can hold any trait struct.
 //
-// To add a model, write its trait struct in a file of its own, and name it in sim/mesoscale/following_types.h. The
-// concept CarFollowing lists what the struct must have.
+// To add a model, write its trait struct and its FollowingAt in a file of its own, and include the file in
+// sim/mesoscale/following_types.h. The concept CarFollowing lists what the struct must have.
 #pragma once
 
 #include <array>
@@ -162,6 +162,15 @@ concept CarFollowing = std::is_trivially_copyable_v<M> &&
     { model.in_sumo() } -> std::same_as<SumoFollowing>;
     // True: following_speed_mps() is also the result of leader_speed_mps() in runs with V2V start messages.
     { model.leader_foresees() } -> std::same_as<bool>;
+};
+
+// FollowingAt gives a model its place in the list of all models (sim/mesoscale/following_types.h). The file of the
+// model specialises it for a free place, with the trait struct as `Trait`. The order of the places is the order in
+// lists for users. Places may stay free.
+inline constexpr int kFollowingPlaces = 32;
+template <int place>
+requires(place >= 0 && place < kFollowingPlaces) struct FollowingAt {
+    using Trait = void;  // the place is free
 };
 
 class FollowingModel;

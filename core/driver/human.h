@@ -168,4 +168,9 @@ struct Human : Idm {
     }
 };
 
+template <>
+struct FollowingAt<2> {
+    using Trait = Human;
+};
+
 }  // namespace stopline

@@ -42,8 +42,6 @@ inline IdmParameters idm_parameters(const IdmSettings& settings, double standsti
 }
 
 inline constexpr double kMinIdmGap_m = 0.1;  // shorter gaps count as this gap
-// Reaction time of the braking before a stop line. stop_acceleration() (acceleration_laws.h) has the same value.
-inline constexpr double kBrakingReaction_s = 0.5;
 
 // Returns (s* / s)^2 for the speed, the closing speed v - v_l and the net gap. `standstill_gap_m` is s_0, and
 // `growth_m` is T v.
@@ -114,6 +112,11 @@ struct Idm : IdmParameters {
                                                  double /*dt*/) {
         return bounded_mps;
     }
+};
+
+template <>
+struct FollowingAt<1> {
+    using Trait = Idm;
 };
 
 }  // namespace stopline

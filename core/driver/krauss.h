@@ -190,4 +190,9 @@ STOPLINE_INLINE KraussPerVehicle<R> Krauss::of_two_policies(const R& policy, con
             pick(a.below_band_speed_share, b.below_band_speed_share)};
 }
 
+template <>
+struct FollowingAt<0> {
+    using Trait = Krauss;
+};
+
 }  // namespace stopline

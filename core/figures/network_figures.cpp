@@ -9,13 +9,14 @@
 
 #include "figures/interval_points.h"
 #include "figures/population_style.h"
+#include "runs/metrics/metric_groups.h"
 
 namespace stopline {
 
 namespace {
 
-constexpr std::array<const char*, 4> kPanels{"throughput [veh/h]", "travel time [s]", "density [%]",
-                                             "teleported [veh]"};
+// The metrics of the panels.
+constexpr std::array kPanels{"throughput_veh_h", "travel_time_s", "density_percent", "teleported"};
 
 // One point of the curves of a population.
 struct SeriesPoint {
@@ -134,7 +135,8 @@ Figure network_series_figure(const NetworkReport& report) {
                            "set label {} at screen 0.47,0.015 center font ',11' tc rgb '#404040'\n",
                            gnuplot_text(note))
                      : "unset xlabel\nset format x ''\n";
-        body += fmt::format("set ylabel '{}'\nset yrange {}\nplot ", kPanels[panel], range_of(all, panel));
+        body += fmt::format("set ylabel {}\nset yrange {}\nplot ", gnuplot_text(axis_title(kPanels[panel])),
+                            range_of(all, panel));
         for (std::size_t k = 0; k < report.populations.size(); ++k) {
             const LineStyle style = style_of(report.scenario, report.populations[k].population);
             const bool named_here = std::min(k / kNamesPerPanel, kPanels.size() - 1) == panel;

@@ -13,7 +13,7 @@
 namespace stopline {
 
 struct RunKind {
-    const char* name;  // also the group of the tables of results (runs/tables/column_docs.h)
+    const char* name;  // one of the names in scenario/kinds/network_kind.h
     // Runs one population and returns its metrics, as run_metrics() does.
     std::vector<RunMetric> (*metrics)(const Scenario& scenario, std::size_t population,
                                       const std::function<bool()>& keep_going);

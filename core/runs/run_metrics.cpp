@@ -9,6 +9,7 @@
 #include "runs/network/network_metrics.h"
 #include "runs/run_kind.h"
 #include "runs/single_light/single_light_metrics.h"
+#include "scenario/kinds/network_kind.h"
 #include "sim/state/model.h"
 
 namespace stopline {
@@ -63,9 +64,9 @@ TimeWindow end_of_run(const Scenario& scenario) {
 
 }  // namespace
 
-extern const RunKind kSingleLightRun{"single_light", run_light, whole_run};
-extern const RunKind kIntersectionRun{"intersection", run_junction, measured_window};
-extern const RunKind kNetworkRun{"network", run_whole_network, end_of_run};
+extern const RunKind kSingleLightRun{kRunAsSingleLight, run_light, whole_run};
+extern const RunKind kIntersectionRun{kRunAsIntersection, run_junction, measured_window};
+extern const RunKind kNetworkRun{kRunAsNetwork, run_whole_network, end_of_run};
 
 std::vector<RunMetric> run_metrics(const Scenario& scenario, std::size_t population,
                                    const std::function<bool()>& keep_going) {

@@ -49,7 +49,7 @@ std::int64_t GroupProgramme::next_change_tick(std::int64_t tick) const {
 
 std::int64_t GroupProgramme::last_green_start_tick(std::int64_t tick) const {
     while (tick >= 0 && light(tick) != Light::green) tick = light_start_tick(tick) - 1;
-    return tick < 0 ? -1 : light_start_tick(tick);
+    return tick < 0 ? kNoGreen : light_start_tick(tick);
 }
 
 GroupProgramme make_single_light(const SignalSettings& s, double step_s) {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "network/street_settings.h"
@@ -13,6 +14,9 @@
 namespace stopline {
 
 enum class Light : std::uint8_t { red, green, yellow };
+
+// Start of the latest green where there has been no green yet. All other starts, below 0 too, are ticks.
+inline constexpr std::int64_t kNoGreen = std::numeric_limits<std::int64_t>::min();
 
 struct Stage {
     std::int64_t ticks = 0;  // duration
@@ -31,8 +35,8 @@ public:
     // negative. For the red before the offset the result is 0. For the red after a programme that does not repeat, the
     // result is the end of the last stage.
     std::int64_t light_start_tick(std::int64_t tick) const;
-    // Returns the start of the latest green that was shown at any tick from 0 to `tick`, or -1 if there was none. The
-    // start can be negative.
+    // Returns the start of the latest green that was shown at any tick from 0 to `tick`, or kNoGreen if there was none.
+    // The start can be negative.
     std::int64_t last_green_start_tick(std::int64_t tick) const;
     // Returns the first tick after `tick` at which a stage begins or the programme ends. Returns the highest possible
     // tick if there is none.

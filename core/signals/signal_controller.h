@@ -1,7 +1,7 @@
 // Signal controllers: they decide which light each signal group of an intersection shows. One controller runs for each
 // intersection, with lights and memory of its own.
 //
-// To add a controller, write a file signals/<name>.cpp that defines a SignalController, and register it in
+// To add a controller, write a file signals/<name>.cpp that defines a SignalController, and add it to the list in
 // signal_controllers.cpp. Its name is then a value of the field `signal.controller`, and its parameters are fields of
 // the section `signal`.
 #pragma once

@@ -6,21 +6,19 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/defined_elsewhere.h"
 #include "base/input_error.h"
 #include "signals/signal_controller.h"
 
 namespace stopline {
 
-extern const SignalController kFixedTimeController;
-
-namespace {
-
-std::vector<const SignalController*>& controllers() {
-    static std::vector<const SignalController*> all{&kFixedTimeController};
+// Returns the controllers. The order is the order in lists for the user.
+static std::vector<const SignalController*>& controllers() {
+    static std::vector<const SignalController*> all{
+        STOPLINE_DEFINED_ELSEWHERE(SignalController, kFixedTimeController),
+    };
     return all;
 }
-
-}  // namespace
 
 std::span<const SignalController* const> signal_controllers() { return controllers(); }
 
@@ -87,7 +85,7 @@ SignalPlan fixed_time_plan(int first_group, std::vector<GroupProgramme> programm
 
 SignalPlan fixed_time_plan(std::vector<int> groups, std::vector<GroupProgramme> programmes) {
     SignalPlan plan;
-    plan.controller = &kFixedTimeController;
+    plan.controller = STOPLINE_DEFINED_ELSEWHERE(SignalController, kFixedTimeController);
     plan.groups = std::move(groups);
     plan.nominal_cycle_ticks = programmes.at(0).cycle_ticks();
     plan.programmes = std::move(programmes);

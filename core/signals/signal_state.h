@@ -26,7 +26,7 @@ struct SignalDetector {
 struct SignalState {
     std::vector<Light> lights;                      // [signal group] light at the present tick
     std::vector<std::int64_t> since_tick;           // [signal group] tick at which the present light began
-    std::vector<std::int64_t> green_start_tick;     // [signal group] start of the latest green; -1: none so far
+    std::vector<std::int64_t> green_start_tick;     // [signal group] start of the latest green, or kNoGreen
     std::vector<std::int64_t> next_step_tick;       // [signal] tick at which the controller decides next
     std::int64_t first_step_tick = 0;               // the earliest of next_step_tick
     std::vector<std::vector<std::int64_t>> memory;  // [signal] numbers that the controller keeps
@@ -58,7 +58,7 @@ public:
         if (light == Light::green) state_.green_start_tick[index(group)] = tick_;
     }
     // Sets the light with which a run begins. `since_tick` may be below 0. `green_start_tick`: start of the latest
-    // green; -1: none.
+    // green, or kNoGreen.
     void begin_with(int group, Light light, std::int64_t since_tick, std::int64_t green_start_tick) {
         state_.lights[index(group)] = light;
         state_.since_tick[index(group)] = since_tick;

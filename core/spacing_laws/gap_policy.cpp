@@ -11,35 +11,6 @@
 
 namespace stopline {
 
-extern const GapLaw kConstantDistanceLaw;
-extern const GapLaw kConstantTimeLaw;
-extern const GapLaw kSwitchTimeGapLaw;
-extern const GapLaw kSwitchDistanceLaw;
-extern const GapLaw kFormulaLaw;
-extern const GapLaw kTableLaw;
-extern const GapLaw kHumanLaw;
-
-std::span<const GapLaw* const> gap_laws() {
-    static const std::array<const GapLaw*, 7> kLaws{
-        &kConstantDistanceLaw, &kConstantTimeLaw, &kSwitchTimeGapLaw, &kSwitchDistanceLaw,
-        &kFormulaLaw,          &kTableLaw,        &kHumanLaw};
-    return kLaws;
-}
-
-const GapLaw& find_gap_law(const std::string& name) {
-    for (const GapLaw* law : gap_laws()) {
-        if (name == law->name) return *law;
-    }
-    throw InputError(
-        fmt::format("there is no spacing law '{}'; the laws are: {}", name, fmt::join(gap_law_names(), ", ")));
-}
-
-std::vector<std::string> gap_law_names() {
-    std::vector<std::string> names;
-    for (const GapLaw* law : gap_laws()) names.emplace_back(law->name);
-    return names;
-}
-
 namespace {
 
 std::vector<LawParameter> all_parameters() {

@@ -2,10 +2,10 @@
 // of the function is the local time gap. Where the slope is positive, the controller of full dynamics keeps a time gap.
 // Where the slope is 0, it keeps a constant distance.
 //
-// To add a law, write a file spacing_laws/<name>.cpp that defines a GapLaw, and register the law in gap_policy.cpp. Its
-// parameters are then fields in YAML files. The lists for the user, the error message for an unknown name and the tests
-// of all laws include it. A spacing policy is a law with values for its parameters; to add one, write YAML
-// (data/policies). With the laws `formula` and `table`, a gap of any shape needs no C++.
+// To add a law, write a file spacing_laws/<name>.cpp that defines a GapLaw, and add the law to the list in
+// gap_laws.cpp. Its parameters are then fields in YAML files. The lists for the user, the error message for an unknown
+// name and the tests of all laws include it. A spacing policy is a law with values for its parameters; to add one,
+// write YAML (data/policies). With the laws `formula` and `table`, a gap of any shape needs no C++.
 #pragma once
 
 #include <array>
@@ -87,6 +87,9 @@ struct GapLaw {
 
 // Returns all registered laws.
 std::span<const GapLaw* const> gap_laws();
+// Adds a law that is not part of the project, such as the law of a test. Call this function before the first policy is
+// made or loaded, because the list of parameters is made then. The law must exist until the end of the program.
+void register_gap_law(const GapLaw& law);
 
 // Returns the law with this name. Throws InputError with a list of the known names if there is none.
 const GapLaw& find_gap_law(const std::string& name);

@@ -64,7 +64,7 @@ TEST(Stop, BrakesHarderIfItStartsLate) {
 TEST(StoppingDistance, IsTheClosedForm) {
     DriverTables d = shipped();
     d.stop.deceleration_mps2 = 2.5;
-    EXPECT_DOUBLE_EQ(stopping_distance_m(d, 10.0), 100.0 / 5.0 + 10.0 * kLandingTime_s);
+    EXPECT_DOUBLE_EQ(stopping_distance_m(d, 10.0), 100.0 / 5.0 + 10.0 * kBrakingReaction_s);
     EXPECT_EQ(stopping_distance_m(d, 0.0), 0.0);
 }
 

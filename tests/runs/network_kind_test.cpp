@@ -39,7 +39,7 @@ LaneGraph crossroads(const NetworkSettings& network) {
 const NetworkKind kCrossroadsKind{
     .name = "crossroads",
     .meaning = "test: two roads that cross",
-    .run = "network",
+    .run = kRunAsNetwork,
     .signal_groups = 2,
     .has_measured_area = true,
     .fields = [] { return std::vector{own_section<CrossroadsSettings>("crossroads", crossroads_table, "test")}; },
@@ -117,7 +117,7 @@ TEST(NetworkKind, RunsAndReports) {
         }
     }
     EXPECT_EQ(columns, result_columns(scenario));
-    EXPECT_EQ(table_group(scenario.network), "network");
+    EXPECT_EQ(table_group(scenario.network), kRunAsNetwork);
     const std::string table = network_csv(run_networks(scenario, {}));
     EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 2);
     EXPECT_NE(table.find("\nCTG-Ref,"), std::string::npos);

@@ -73,6 +73,15 @@ TEST_P(Programme, ReportsItsCycle) {
     EXPECT_EQ(GroupProgramme(GetParam().stages, GetParam().offset, GetParam().repeats).cycle_ticks(), sum);
 }
 
+// A green that began at tick -1 is a green.
+TEST(Programme, LastGreenCanBeginBeforeTheRun) {
+    const std::vector<Stage> stages{{3, Light::green}, {2, Light::yellow}, {4, Light::red}};
+    EXPECT_EQ(GroupProgramme(stages, -1, true).last_green_start_tick(5), -1);
+    EXPECT_EQ(GroupProgramme(stages, -1, false).last_green_start_tick(50), -1);
+    EXPECT_EQ(GroupProgramme(stages, 1, true).last_green_start_tick(0), kNoGreen);
+    EXPECT_EQ(GroupProgramme(stages, -4, false).last_green_start_tick(50), kNoGreen);  // over before the run
+}
+
 TEST(Programme, RefusesStagesWithoutDuration) {
     EXPECT_THROW(GroupProgramme({}, 0, true), InputError);
     EXPECT_THROW(GroupProgramme({{0, Light::green}}, 0, true), InputError);

@@ -1,7 +1,6 @@
 #include "figures/studies/calibration_figures.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -11,6 +10,7 @@
 
 #include "base/containers/index.h"
 #include "base/io/csv.h"
+#include "runs/metrics/metric_groups.h"
 
 namespace stopline {
 
@@ -18,24 +18,6 @@ namespace {
 
 // Quotes text for a legend. It needs no escapes, because the legends here are not in gnuplot's enhanced mode.
 std::string legend_text(const std::string& text) { return "'" + text + "'"; }
-
-// Returns the axis label for a result column. The last part of its name is the unit: "travel_time_94m_s" becomes
-// "travel time, zone of 94 m [s]".
-std::string axis_label(std::string column) {
-    const std::size_t veh_h = column.find("_veh_h");
-    const std::size_t last = veh_h == std::string::npos ? column.rfind('_') : veh_h;
-    if (last == std::string::npos) return column;
-    std::string unit = column.substr(last + 1);
-    std::replace(unit.begin(), unit.end(), '_', '/');
-    std::string quantity = column.substr(0, last);
-    const std::size_t zone = quantity.rfind('_');
-    if (zone != std::string::npos && quantity.ends_with('m') && std::isdigit(quantity[zone + 1]) != 0) {
-        quantity =
-            quantity.substr(0, zone) + ", zone of " + quantity.substr(zone + 1, quantity.size() - zone - 2) + " m";
-    }
-    std::replace(quantity.begin(), quantity.end(), '_', ' ');
-    return fmt::format("{} [{}]", quantity, unit == "percent" ? "%" : unit);
-}
 
 // Highest number of detectors in a figure of cumulative vehicle counts. Each detector has its own colour, and a reader
 // cannot distinguish more colours.
@@ -195,7 +177,7 @@ std::vector<Figure> band_figures(const BandCheck& check) {
             "plot '{0}' using 1:(100*$4/$2-100):(100*$5/$2-100) with filledcurves lc rgb '#c6dbef', \\\n"
             "  '{0}' using 1:(100*$6/$2-100):(100*$7/$2-100) with filledcurves lc rgb '#6baed6', \\\n"
             "  '{0}' using 1:(100*$3/$2-100) with points pt 7 ps 0.4 lc rgb '#d55e00'\nunset multiplot\n",
-            file, gnuplot_text(axis_label(metric.metric)));
+            file, gnuplot_text(axis_title(metric.metric)));
         figures.push_back(std::move(figure));
     }
     return figures;

@@ -63,9 +63,15 @@ std::string cells_of(const std::optional<SeedSpread>& spread) {
 
 // Returns one data block for each line of the figure.
 std::string data_of(const SweepPlanes& all, const SweepPlane& plane) {
-    std::string data =
-        fmt::format("# {}; mean and 95 % confidence interval of {}, {} and {}; then of their changes in percent\n",
-                    all.x_axis.name, all.metrics[0].name, all.metrics[1].name, all.metrics[2].name);
+    std::string names;
+    for (const SweepMetric& metric : all.metrics) {
+        const char* const before = &metric == &all.metrics.front()  ? ""
+                                   : &metric == &all.metrics.back() ? " and "
+                                                                    : ", ";
+        names += before + metric.name;
+    }
+    std::string data = fmt::format("# {}; mean and 95 % confidence interval of {}; then of their changes in percent\n",
+                                   all.x_axis.name, names);
     for (std::size_t population = 0; population < all.populations.size(); ++population) {
         for (std::size_t line = 0; line < all.line_axis.values.size(); ++line) {
             data += "# " + all.populations[population] +
@@ -73,10 +79,10 @@ std::string data_of(const SweepPlanes& all, const SweepPlane& plane) {
             for (std::size_t x = 0; x < all.x_axis.values.size(); ++x) {
                 const PlanePoint point{x, line, population};
                 data += fmt::format("{:g}", all.x_axis.values[x]);
-                for (std::size_t metric = 0; metric < kSweepMetricCount; ++metric)
+                for (std::size_t metric = 0; metric < all.metrics.size(); ++metric)
                     data += cells_of(plane.value(metric, point));
-                for (std::size_t metric = 0; metric < kSweepMetricCount; ++metric)
-                    data += cells_of(plane.change(metric, point, all.metrics[metric].sign));
+                for (std::size_t metric = 0; metric < all.metrics.size(); ++metric)
+                    data += cells_of(plane.change(metric, point, all.metrics[metric].sign()));
                 data += "\n";
             }
             data += "\n\n";
@@ -128,7 +134,7 @@ double key_width_px(const std::vector<KeyEntry>& entries) {
 
 std::string panel_of(const SweepPlanes& all, const std::string& file, std::size_t metric, bool change) {
     std::string plots;
-    const std::size_t column = 2 + 3 * (metric + (change ? kSweepMetricCount : 0));
+    const std::size_t column = 2 + 3 * (metric + (change ? all.metrics.size() : 0));
     for (std::size_t p = change ? 1 : 0; p < all.populations.size(); ++p) {
         for (std::size_t line = 0; line < all.line_axis.values.size(); ++line) {
             const CurveStyle style = curve_style(all, p, line);
@@ -151,7 +157,8 @@ Figure sweep_lines_figure(const SweepPlanes& all, const SweepPlane& plane, std::
     constexpr double kKeyMargin = 0.008;
     Figure figure;
     figure.name = fmt::format("{}_{}", all.has_stability ? "network" : "lines", number);
-    figure.width_px = 1300;
+    const std::size_t metrics = all.metrics.size();
+    figure.width_px = 160 + 380 * static_cast<int>(metrics);
     const bool compares = all.populations.size() > 1;
     figure.height_px = compares ? 760 : 410;
     const std::string file = figure.name + ".dat";
@@ -162,21 +169,22 @@ Figure sweep_lines_figure(const SweepPlanes& all, const SweepPlane& plane, std::
     const std::vector<KeyEntry> key = key_of(all);
     const double right = 1.0 - key_width_px(key) / figure.width_px;
     std::string body = fmt::format(
-        "set multiplot layout {},3{} margins 0.075,{:.4f},{},{} spacing 0.065,0.10\nset xlabel {}\nset xrange [{:g}:{:g}]\n"
+        "set multiplot layout {},{}{} margins 0.075,{:.4f},{},{} spacing 0.065,0.10\nset xlabel {}\nset xrange [{:g}:{:g}]\n"
         "set xtics {}\nset bars 0.5\n",
-        compares ? 2 : 1, title.empty() ? "" : " title " + gnuplot_text(title), right, compares ? "0.08" : "0.15",
+        compares ? 2 : 1, metrics, title.empty() ? "" : " title " + gnuplot_text(title), right,
+        compares ? "0.08" : "0.15",
         title.empty() ? "0.97"
         : compares    ? "0.94"
                       : "0.89",
         gnuplot_text(all.x_axis.label()), values.front() - margin, values.back() + margin, ticks_of(values));
-    for (std::size_t panel = 0; panel < (compares ? 2 : 1) * kSweepMetricCount; ++panel) {
-        const bool change = panel >= kSweepMetricCount;
-        const std::size_t metric = panel % kSweepMetricCount;
+    for (std::size_t panel = 0; panel < (compares ? 2 : 1) * metrics; ++panel) {
+        const bool change = panel >= metrics;
+        const std::size_t metric = panel % metrics;
         const SweepMetric& shown = all.metrics[metric];
         body += fmt::format("set ylabel {}\n", gnuplot_text(change ? all.change_label(shown) : shown.label()));
         // gnuplot needs an explicit range if no value is a number.
         body += change ? "set yrange [*:*]\n" : plane.has(metric) ? "set yrange [0:*]\n" : "set yrange [0:1]\n";
-        const bool with_key = panel + 1 == kSweepMetricCount;
+        const bool with_key = panel + 1 == metrics;
         body += with_key ? fmt::format("set key at screen {:.4f},graph 1 left top\nplot ", right + kKeyMargin)
                          : "unset key\nplot ";
         body += panel_of(all, file, metric, change);

@@ -13,6 +13,7 @@
 #include "base/io/csv.h"
 #include "measure/confidence.h"
 #include "runs/network/network_run.h"
+#include "scenario/kinds/network_kind.h"
 
 namespace stopline {
 
@@ -161,51 +162,43 @@ SeedSpread spread_of(const std::vector<double>& values) {
     return {mean, interval.low, interval.high};
 }
 
-const std::vector<SweepMetric>& network_metrics() {
-    static const std::vector<SweepMetric> kMetrics{
-        {"throughput_veh_h", "throughput", "veh/h", "throughput gain over {} [%]", 1.0, true},
-        {"travel_time_s", "travel time", "s", "travel time saved against {} [%]", -1.0, true},
-        {"density_percent", "density", "%", "density change against {} [%]", 1.0, false}};
-    return kMetrics;
+// Returns the last column of the table that the metric has; empty if there is none.
+std::string column_of(const CsvTable& results, const DrawnMetric& metric) {
+    const auto found = std::find_if(results.columns.rbegin(), results.columns.rend(),
+                                    [&](const std::string& column) { return metric.has(column); });
+    return found == results.columns.rend() ? "" : *found;
 }
 
-const std::vector<SweepMetric>& intersection_metrics() {
-    static const std::vector<SweepMetric> kMetrics{
-        {"throughput_veh_h", "throughput", "veh/h", "throughput gain over {} [%]", 1.0, true},
-        {"vehicles_per_green", "vehicles per green and lane", "veh", "gain over {} [%]", 1.0, true},
-        {"queue_veh", "queue at the start of green", "veh", "queue saved against {} [%]", -1.0, true}};
-    return kMetrics;
-}
-
-// Returns the metrics of a single light. `passed` is the column for the last green time of measure.green.
-std::vector<SweepMetric> light_metrics(const std::string& passed) {
-    return {{passed, "vehicles passed in the last green", "veh", "gain over {} [%]", 1.0, true},
-            {"queue_emptied_s", "time until the queue has passed", "s", "time saved against {} [%]", -1.0, true},
-            {"steady_headway_s", "headway in steady state", "s", "headway saved against {} [%]", -1.0, true}};
-}
-
-bool has_columns(const CsvTable& results, const std::vector<SweepMetric>& metrics) {
-    return std::all_of(metrics.begin(), metrics.end(),
-                       [&](const SweepMetric& metric) { return has_column(results, metric.column); });
-}
-
-// Returns the last column "passed_K_veh"; empty if there is none.
-std::string last_passed_column(const CsvTable& results) {
-    std::string last;
-    for (const std::string& column : results.columns) {
-        if (column.starts_with("passed_") && column.ends_with("_veh")) last = column;
+// Returns the metrics of a group that the figures of sweeps show, or nothing if the table does not have all of them.
+std::vector<SweepMetric> metrics_of(const MetricGroup& group, const CsvTable& results) {
+    std::vector<SweepMetric> metrics;
+    // Tables of runs over several intersections say whether each run is stable.
+    if (group.name == kRunAsNetwork && !has_column(results, "stability")) return {};
+    for (const DrawnMetric& metric : group.drawn) {
+        const SweepPanels& panels = metric.figure.sweep;
+        if (!panels.exist()) continue;
+        const std::string column = column_of(results, metric);
+        if (column.empty()) return {};
+        const std::string name = panels.name.empty() ? metric.axis(column) : std::string(panels.name);
+        metrics.push_back({column, name, std::string(metric.unit), std::string(panels.change), panels.better});
     }
-    return last;
+    return metrics;
+}
+
+bool has_runs(const CsvTable& results, const std::string& population_column) {
+    return !results.rows.empty() && has_column(results, population_column) && has_column(results, "seed");
 }
 
 }  // namespace
 
-std::vector<SweepMetric> sweep_metrics(const CsvTable& results, const std::string& population_column) {
-    if (results.rows.empty() || !has_column(results, population_column) || !has_column(results, "seed")) return {};
-    if (has_network_metrics(results, population_column)) return network_metrics();
-    if (has_columns(results, intersection_metrics())) return intersection_metrics();
-    const std::vector<SweepMetric> light = light_metrics(last_passed_column(results));
-    return has_columns(results, light) ? light : std::vector<SweepMetric>{};
+std::vector<SweepMetric> sweep_metrics(const CsvTable& results, const std::string& population_column,
+                                       const std::vector<MetricGroup>& groups) {
+    if (!has_runs(results, population_column)) return {};
+    for (const MetricGroup& group : groups) {
+        const std::vector<SweepMetric> metrics = metrics_of(group, results);
+        if (!metrics.empty()) return metrics;
+    }
+    return {};
 }
 
 bool SweepPlane::has(std::size_t metric) const {
@@ -265,9 +258,7 @@ std::string SweepPlanes::change_label(const SweepMetric& metric) const {
 }
 
 bool has_network_metrics(const CsvTable& results, const std::string& population_column) {
-    const auto has = [&](const std::string& name) { return has_column(results, name); };
-    return has(population_column) && has("seed") && has("stability") && !results.rows.empty() &&
-           has_columns(results, network_metrics());
+    return has_runs(results, population_column) && !metrics_of(metric_group(kRunAsNetwork), results).empty();
 }
 
 std::vector<std::string> axis_columns(const CsvTable& results, const std::string& population_column) {
@@ -280,11 +271,12 @@ std::vector<std::string> axis_columns(const CsvTable& results, const std::string
 }
 
 std::optional<SweepPlanes> sweep_planes(const CsvTable& results, const CellTitles& titles,
-                                        const std::string& population_column, const std::string& baseline) {
+                                        const std::string& population_column, const std::string& baseline,
+                                        const std::vector<MetricGroup>& groups) {
     const std::vector<PlotAxis> axes = drawn_axes(results, titles, population_column);
     if (axes.empty()) return std::nullopt;
     SweepPlanes all;
-    all.metrics = sweep_metrics(results, population_column);
+    all.metrics = sweep_metrics(results, population_column, groups);
     all.has_stability = has_column(results, "stability");
     const auto has_baseline = [&](const auto& row) { return row[results.column(population_column)] == baseline; };
     for (const std::vector<std::string>& row : results.rows) {

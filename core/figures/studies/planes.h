@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "base/io/csv.h"
+#include "runs/metrics/metric_groups.h"
 #include "sweeps/sweep.h"
 
 namespace stopline {
@@ -29,18 +30,19 @@ struct SweepMetric {
     std::string name;
     std::string unit;
     std::string change;  // axis label of the change; {} is replaced by the name of the baseline
-    double sign;         // 1: the change is positive if the metric rises; -1: it is positive if the metric falls
-    // True if a positive change is an improvement. It is false for density: a lower density is not always better,
-    // because it can also mean less traffic.
-    bool improves;
+    Better better = Better::higher;
 
     std::string label() const { return name + " [" + unit + "]"; }
+    // 1: the change is positive if the metric rises; -1: it is positive if the metric falls.
+    double sign() const { return better == Better::lower ? -1.0 : 1.0; }
+    // True if a positive change is an improvement.
+    bool improves() const { return better != Better::neither; }
 };
-inline constexpr std::size_t kSweepMetricCount = 3;
 
-// Returns the metrics that the figures of a sweep show, one in each column of panels. Runs over several intersections,
-// of a single intersection and of a single light have different metrics. Returns nothing for any other table.
-std::vector<SweepMetric> sweep_metrics(const CsvTable& results, const std::string& population_column);
+// Returns the metrics that the figures of a sweep show, one in each column of panels: those of a group whose entry has
+// SweepPanels. The group is the first one of which the table has all these metrics. Returns nothing if there is none.
+std::vector<SweepMetric> sweep_metrics(const CsvTable& results, const std::string& population_column,
+                                       const std::vector<MetricGroup>& groups = metric_groups());
 
 // The x axis or the line axis of a figure.
 struct PlotAxis {
@@ -82,7 +84,7 @@ public:
     bool has(std::size_t metric) const;
     std::optional<SeedSpread> value(std::size_t metric, const PlanePoint& point) const;
     // Returns the change against the baseline (population 0) in percent of the mean of the baseline. It is the mean of
-    // the differences between runs with the same seed, with its confidence interval. `sign` is SweepMetric::sign.
+    // the differences between runs with the same seed, with its confidence interval. `sign` is SweepMetric::sign().
     std::optional<SeedSpread> change(std::size_t metric, const PlanePoint& point, double sign) const;
     // Returns the numbers of seeds that are stable, semi-stable and unstable.
     std::array<std::size_t, 3> stabilities(const PlanePoint& point) const;
@@ -98,7 +100,7 @@ private:
 struct SweepPlanes {
     PlotAxis x_axis;
     PlotAxis line_axis;
-    std::vector<SweepMetric> metrics;         // kSweepMetricCount of them
+    std::vector<SweepMetric> metrics;         // one for each column of panels
     std::vector<std::string> populations;     // the first one is the baseline
     std::vector<std::string> names_in_order;  // the populations in the order of the results
     std::size_t seeds = 1;
@@ -126,6 +128,7 @@ inline constexpr std::size_t kMaxPlanes = 24;
 // not have it, the first population of the results takes its place. Returns nothing if no axis of the sweep can be the
 // x axis, or if there are too many planes (see kMaxPlanes).
 std::optional<SweepPlanes> sweep_planes(const CsvTable& results, const CellTitles& titles,
-                                        const std::string& population_column, const std::string& baseline);
+                                        const std::string& population_column, const std::string& baseline,
+                                        const std::vector<MetricGroup>& groups = metric_groups());
 
 }  // namespace stopline

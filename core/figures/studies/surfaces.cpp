@@ -54,7 +54,7 @@ struct Panel {
 
 std::optional<double> value_in(const SweepPlanes& all, const SweepPlane& plane, const Panel& panel, std::size_t x,
                                std::size_t line) {
-    const double sign = all.metrics[panel.metric].sign;
+    const double sign = all.metrics[panel.metric].sign();
     const PlanePoint point{x, line, panel.population};
     const std::optional<SeedSpread> spread =
         panel.change ? plane.change(panel.metric, point, sign) : plane.value(panel.metric, point);
@@ -74,7 +74,7 @@ ColourScale scale_of(const SweepPlanes& all, const SweepPlane& plane, std::size_
     }
     ColourScale scale;
     scale.signs = change;
-    scale.palette = change ? diverging_palette(all.metrics[metric].improves) : ordered_palette();
+    scale.palette = change ? diverging_palette(all.metrics[metric].improves()) : ordered_palette();
     if (values.empty()) return scale;
     const auto [min, max] = std::minmax_element(values.begin(), values.end());
     const double largest = std::max(std::abs(*min), std::abs(*max));

@@ -1,5 +1,4 @@
 #include "figures/studies/turn_figures.h"
-#include "base/io/csv.h"
 
 #include <algorithm>
 #include <array>
@@ -10,17 +9,15 @@
 
 #include <fmt/format.h>
 
+#include "base/io/csv.h"
+#include "runs/metrics/metric_groups.h"
+
 namespace stopline {
 
 namespace {
 
-struct Metric {
-    const char* column;  // beginning of the column name
-    const char* label;
-};
-constexpr std::array<Metric, 3> kMetrics{Metric{"throughput", "throughput [veh/h]"},
-                                         Metric{"travel_time", "travel time [s]"},
-                                         Metric{"density_network", "density [%]"}};
+// The metrics of the panels: the beginnings of the names of their columns.
+constexpr std::array kMetrics{"throughput", "travel_time", "density_network"};
 
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
@@ -54,10 +51,10 @@ public:
             }
             if (std::find(greens_s.begin(), greens_s.end(), green_s) == greens_s.end()) greens_s.push_back(green_s);
             if (std::find(turns_.begin(), turns_.end(), turns) == turns_.end()) turns_.push_back(turns);
-            for (const Metric& metric : kMetrics) {
-                const std::optional<double> value = parse_number(row[column_named(results, metric.column)]);
+            for (const char* const metric : kMetrics) {
+                const std::optional<double> value = parse_number(row[column_named(results, metric)]);
                 if (!value) continue;
-                auto& [sum, count] = sums_[{metric.column, green_s, turns, row[population]}];
+                auto& [sum, count] = sums_[{metric, green_s, turns, row[population]}];
                 sum += *value;
                 ++count;
             }
@@ -95,7 +92,7 @@ std::string data_of(const Means& means, const char* metric, double green_s) {
     return text;
 }
 
-Figure figure_of(const Means& means, double green_s) {
+Figure figure_of(const CsvTable& results, const Means& means, double green_s) {
     Figure figure;
     figure.name = fmt::format("turns_green_{:g}", green_s);
     figure.width_px = 1000;
@@ -104,12 +101,12 @@ Figure figure_of(const Means& means, double green_s) {
         "set multiplot layout 3,1 title 'Intersection over turn ratios, {:g} s of green'\nset xtics rotate by -35\nset yrange "
         "[0:*]\nset key outside right\nset lmargin 11\nset rmargin 18\n",
         green_s);
-    for (const Metric& metric : kMetrics) {
-        const std::string file = fmt::format("{}_{}.dat", figure.name, metric.column);
-        figure.data.emplace_back(file, data_of(means, metric.column, green_s));
+    for (const char* const metric : kMetrics) {
+        const std::string file = fmt::format("{}_{}.dat", figure.name, metric);
+        figure.data.emplace_back(file, data_of(means, metric, green_s));
         figure.body +=
             fmt::format("set ylabel {}\nset xlabel 'left turns / right turns [% of the vehicles of a lane]'\nplot ",
-                        gnuplot_text(metric.label));
+                        gnuplot_text(axis_title(results.columns[column_named(results, metric)])));
         for (std::size_t k = 0; k < means.populations.size(); ++k) {
             figure.body +=
                 fmt::format("{}'{}' using {}:xtic(1) with linespoints lc rgb '{}' lw 2 pt {} ps 0.8 title {}",
@@ -138,10 +135,11 @@ bool varies_another_axis(const CsvTable& results) {
 }  // namespace
 
 bool has_turns(const CsvTable& results) {
-    for (const char* const column :
-         {"green", "left", "right", "population", "throughput", "travel_time", "density_network"}) {
-        if (column_named(results, column) == kNone) return false;
+    const auto has = [&](const char* prefix) { return column_named(results, prefix) != kNone; };
+    for (const char* const axis : {"green", "left", "right", "population"}) {
+        if (!has(axis)) return false;
     }
+    if (!std::all_of(kMetrics.begin(), kMetrics.end(), has)) return false;
     return !results.rows.empty() && !varies_another_axis(results);
 }
 
@@ -149,7 +147,7 @@ std::vector<Figure> turn_figures(const CsvTable& results) {
     const Means means(results);
     std::vector<Figure> figures;
     figures.reserve(means.greens_s.size());
-    for (const double green_s : means.greens_s) figures.push_back(figure_of(means, green_s));
+    for (const double green_s : means.greens_s) figures.push_back(figure_of(results, means, green_s));
     return figures;
 }
 

@@ -23,7 +23,7 @@ public:
           second_ticks_(to_ticks(1.0, model.step_s)),
           queue_ticks_(std::max<std::int64_t>(to_ticks(kQueueSample_s, model.step_s), 1)),
           green_starts_(at(model.graph.signal_groups)),
-          last_green_start_(at(model.graph.signal_groups), -1) {}
+          last_green_start_(at(model.graph.signal_groups), kNoGreen) {}
 
     void sample(const State& state) {
         if (state.tick % queue_ticks_ == 0) list_queued(state);
@@ -103,7 +103,7 @@ private:
     std::int64_t second_ticks_;
     std::int64_t queue_ticks_;
     std::vector<std::vector<std::int64_t>> green_starts_;  // [signal group] ticks
-    std::vector<std::int64_t> last_green_start_;           // [signal group] tick; -1: none so far
+    std::vector<std::int64_t> last_green_start_;           // [signal group] tick, or kNoGreen
     std::vector<bool> has_queued_;                         // [vehicle]
     std::int64_t present_ = 0;
     std::int64_t samples_ = 0;

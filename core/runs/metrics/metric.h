@@ -1,5 +1,6 @@
 // The table of metrics. One entry describes a metric of a run and computes its value. These outputs read the entries:
-// summary.csv, the table of a sweep, the console, COLUMNS.md, stopline-run --list and the results page.
+// summary.csv, the table of a sweep, the console, the axes of figures, COLUMNS.md, stopline-run --list and the results
+// page.
 //
 // Each way of running a scenario (runs/run_kind.h) has a list of entries: single_light_metrics.h,
 // intersection_metrics.h and network_metrics.h. The order of a list is the order of the columns.
@@ -82,6 +83,28 @@ struct ConsoleColumn {
     bool is_in(ConsoleTable wanted) const { return !heading.empty() && table == wanted; }
 };
 
+// The change of a metric against a baseline that is an improvement. `neither`: a change of the metric is not good or
+// bad in itself.
+enum class Better : std::uint8_t { higher, lower, neither };
+
+// Panels of a metric in the figures of sweeps: its value, and its change against the baseline.
+struct SweepPanels {
+    // Title of the axis for the change. `{}` stands for the name of the baseline. Empty: the figures leave the metric
+    // out. If `better` is `lower`, a fall of the metric is a positive change.
+    std::string_view change = {};
+    Better better = Better::higher;
+    std::string_view name = {};  // name on the axis for the value; empty: MetricFigure::axis
+
+    bool exist() const { return !change.empty(); }
+};
+
+// Appearance of a metric in figures.
+struct MetricFigure {
+    std::string_view axis = {};  // name on axes; empty: the name of the column without its unit
+    // Of a family, the figures of sweeps show the last key.
+    SweepPanels sweep = {};
+};
+
 // A metric of a run. `Run` is a type that refers to one finished run, such as MeasuredNetwork. It has the members
 // `scenario`, `key` and population(). In a family, Run::key is the index of the key for which `value` is called.
 template <class Run>
@@ -100,6 +123,7 @@ struct Metric {
     // list has the metric.
     bool NetworkKind::*only_for = nullptr;
     ConsoleColumn<Run> console;
+    MetricFigure figure = {};
 
     bool in_summary() const { return summary_decimals != kLeftOut; }
     bool in_sweeps() const { return sweep_decimals != kLeftOut; }

@@ -5,11 +5,26 @@
 #include <string_view>
 #include <vector>
 
+#include "runs/metrics/metric.h"
 #include "runs/metrics/metric_text.h"
 #include "runs/tables/column_docs.h"
 #include "scenario/scenario.h"
 
 namespace stopline {
+
+// A metric as figures show it. Figures of sweeps are drawn from a table of results without its scenario, so the name of
+// a column contains the key of a family.
+struct DrawnMetric {
+    std::string_view column;       // as in Metric
+    std::string_view placeholder;  // that of the family; empty: the metric has no family
+    std::string_view unit;
+    MetricFigure figure;
+
+    // Returns true if the metric has the column, such as travel_time_94m_s.
+    bool has(std::string_view name) const;
+    // Returns the name on axes for one of the columns of the metric, such as "travel time".
+    std::string axis(std::string_view name) const;
+};
 
 // The metrics of one way of running (runs/run_kind.h).
 struct MetricGroup {
@@ -17,6 +32,7 @@ struct MetricGroup {
     std::string_view title;            // kinds of networks that are run in this way, in words
     std::vector<ColumnDoc> summary;    // columns of summary.csv after `population`
     std::vector<ColumnDoc> sweep;      // columns of sweeps after the seed
+    std::vector<DrawnMetric> drawn;    // all metrics in CSV tables
     std::vector<std::string> no_mean;  // columns of sweeps whose means over seeds have no meaning
     // Returns the names of the columns of sweeps, after the seed.
     std::vector<std::string> (*sweep_columns)(const Scenario& scenario);
@@ -30,6 +46,10 @@ const std::vector<MetricGroup>& metric_groups();
 // Return the group with this name, and the group of a network. The group must exist.
 const MetricGroup& metric_group(std::string_view name);
 const MetricGroup& metric_group_of(const NetworkSettings& network);
+
+// Returns the title of an axis for a column of summary.csv or of a sweep, such as "travel time [s]". If no metric has
+// the column, returns its name.
+std::string axis_title(std::string_view column);
 
 // Returns false if a mean of the column over the seeds of a sweep has no meaning. `column` is the name of a metric.
 bool has_mean(std::string_view column);

@@ -9,6 +9,7 @@
 
 #include "base/io/csv.h"
 #include "runs/metrics/metric.h"
+#include "runs/metrics/metric_groups.h"
 #include "runs/metrics/metric_text.h"
 #include "runs/run_metrics.h"
 #include "runs/tables/column_docs.h"
@@ -189,6 +190,18 @@ std::vector<ColumnDoc> metric_docs(const MetricColumns<Run>& columns) {
     std::vector<ColumnDoc> docs;
     for (const MetricColumn<Run>& column : columns) docs.push_back(column.doc());
     return docs;
+}
+
+// Returns all metrics in CSV tables, for figures.
+template <class Run>
+std::vector<DrawnMetric> drawn_metrics(const MetricList<Run>& metrics) {
+    std::vector<DrawnMetric> drawn;
+    for (const Metric<Run>& metric : metrics) {
+        if (!metric.in_summary() && !metric.in_sweeps()) continue;
+        drawn.push_back(
+            {metric.column, metric.family == nullptr ? "" : metric.family->placeholder, metric.unit, metric.figure});
+    }
+    return drawn;
 }
 
 // Returns all metrics in CSV tables, for stopline-run --list. A null `scenario` gives those of all scenarios.

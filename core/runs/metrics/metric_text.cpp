@@ -1,6 +1,8 @@
 #include "runs/metrics/metric_text.h"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 namespace stopline {
 
@@ -43,6 +45,25 @@ std::string with_key(std::string_view text, std::string_view placeholder, std::s
         replaced.replace(at, placeholder.size(), key);
     }
     return replaced;
+}
+
+std::string_view key_in(std::string_view name, std::string_view pattern, std::string_view placeholder) {
+    const std::size_t at = pattern.find(placeholder);
+    const std::string_view begin = pattern.substr(0, at);
+    const std::string_view end = pattern.substr(at + placeholder.size());
+    const bool fits = name.size() > begin.size() + end.size() && name.starts_with(begin) && name.ends_with(end);
+    return fits ? name.substr(begin.size(), name.size() - begin.size() - end.size()) : std::string_view();
+}
+
+std::string_view without_unit(std::string_view column, std::string_view unit) {
+    using Suffix = std::pair<std::string_view, std::string_view>;
+    constexpr std::array kSuffixes{Suffix{"s", "_s"},         Suffix{"m", "_m"},     Suffix{"%", "_percent"},
+                                   Suffix{"veh/h", "_veh_h"}, Suffix{"veh h", "_h"}, Suffix{"m/s", "_mps"},
+                                   Suffix{"veh", "_veh"}};
+    for (const auto& [of_unit, suffix] : kSuffixes) {
+        if (unit == of_unit && column.ends_with(suffix)) return column.substr(0, column.size() - suffix.size());
+    }
+    return column;
 }
 
 std::string first_statement(std::string_view text) {

@@ -33,6 +33,12 @@ private:
 // Returns `text` with `key` in place of each `placeholder`.
 std::string with_key(std::string_view text, std::string_view placeholder, std::string_view key);
 
+// Returns the key that stands in `name` in place of the `placeholder` of `pattern`. Returns "" if there is none.
+std::string_view key_in(std::string_view name, std::string_view pattern, std::string_view placeholder);
+
+// Returns the name of a column without the unit at its end.
+std::string_view without_unit(std::string_view column, std::string_view unit);
+
 // Returns the text up to the first semicolon or full stop, without the backquotes of Markdown.
 std::string first_statement(std::string_view text);
 

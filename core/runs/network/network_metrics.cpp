@@ -93,7 +93,8 @@ MetricList<MeasuredNetwork> area_metrics() {
          .meaning = "vehicles that leave the area; imported networks: trips that end",
          .value = [](const MeasuredNetwork& run) { return run.result.measured.throughput_veh_h(); },
          .summary_decimals = 2,
-         .console = {.heading = "throughput", .decimals = 0, .note = "vehicles that leave the area"}},
+         .console = {.heading = "throughput", .decimals = 0, .note = "vehicles that leave the area"},
+         .figure = {.sweep = {.change = "throughput gain over {} [%]"}}},
         {.column = "improvement_percent",
          .unit = "%",
          .extent = "window",
@@ -112,7 +113,8 @@ MetricList<MeasuredNetwork> area_metrics() {
                     "area do not count. Imported networks: mean time from entering the network to the end of the trip",
          .value = [](const MeasuredNetwork& run) { return run.result.measured.travel_time_s; },
          .summary_decimals = 3,
-         .console = {.heading = "travel time", .decimals = 1, .note = "mean of the vehicles that leave the area"}},
+         .console = {.heading = "travel time", .decimals = 1, .note = "mean of the vehicles that leave the area"},
+         .figure = {.sweep = {.change = "travel time saved against {} [%]", .better = Better::lower}}},
         {.column = "travel_time_saved_percent",
          .unit = "%",
          .extent = "window",
@@ -140,7 +142,9 @@ MetricList<MeasuredNetwork> area_metrics() {
                      .value =
                          [](const MeasuredNetwork& run) {
                              return run.has_window() ? 100.0 * run.result.measured.occupied : kNan;
-                         }}},
+                         }},
+         // A lower density is not always better, because it can also mean less traffic.
+         .figure = {.sweep = {.change = "density change against {} [%]", .better = Better::neither}}},
         {.column = "throughput_SIDE_SIDE_veh_h",
          .unit = "veh/h",
          .extent = "window",

@@ -32,16 +32,7 @@ std::string summary_csv(const SingleLightReport& result) {
 }
 
 std::string improvement_csv(const SingleLightReport& result) {
-    CsvWriter csv({"population", "green_s", "passed_veh", "baseline", "baseline_passed_veh", "improvement_percent"});
-    const std::vector<double>& green_s = result.scenario.measure.green_s;
-    for (const PopulationSummary& summary : result.populations) {
-        for (std::size_t k = 0; k < green_s.size(); ++k) {
-            const PopulationSummary* const base = result.baseline ? &result.populations[*result.baseline] : nullptr;
-            csv.row({summary.name, fixed(green_s[k], 3), std::to_string(summary.passed[k]), base ? base->name : "",
-                     base ? std::to_string(base->passed[k]) : "", fixed(summary.improvement_percent[k], 2)});
-        }
-    }
-    return csv.text();
+    return metrics_csv(green_metrics(), result.scenario, measured_greens(result));
 }
 
 std::string trajectories_csv(const SingleLightReport& result, double interval_s) {

@@ -1,6 +1,13 @@
 #include "runs/single_light/single_light_metrics.h"
 
+#include <deque>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
 #include "base/units.h"
+#include "runs/metrics/metric_text.h"
 
 namespace stopline {
 
@@ -13,28 +20,39 @@ std::vector<std::string> green_numbers(const Scenario& scenario) {
 }
 constexpr MetricFamily kGreens{"K", green_numbers};
 
+// Returns true if the queue empties before the green time ends. In that case more vehicles would pass if the queue were
+// longer.
+bool queue_empties(const PopulationSummary& summary, double green_s) { return summary.emptied_s < green_s; }
+
+std::string passed_text(const MeasuredGreen& run) {
+    return std::to_string(run.summary.passed[run.green]) + (queue_empties(run.summary, run.green_s()) ? "*" : "");
+}
+
+std::string improvement_text(const MeasuredGreen& run) {
+    const bool limited = queue_empties(run.summary, run.green_s()) || queue_empties(*run.baseline(), run.green_s());
+    return MetricValue(run.summary.improvement_percent[run.green]).console_cell(0, true) + (limited ? "*" : "");
+}
+
 MetricList<MeasuredLight> passage_metrics() {
+    return {{.column = "passed_in_green_veh",
+             .unit = "veh",
+             .extent = "green",
+             .meaning = "vehicles that pass the stop line",
+             .value = [](const MeasuredLight& light) { return light.summary.counter.total(); },
+             .sweep_decimals = kLeftOut}};
+}
+
+MetricList<MeasuredLight> emptying_metrics() {
     return {
-        {.column = "passed_in_green_veh",
-         .unit = "veh",
-         .extent = "green",
-         .meaning = "vehicles that pass the stop line",
-         .value = [](const MeasuredLight& light) { return light.summary.counter.total(); },
-         .sweep_decimals = kLeftOut},
-        {.column = "passed_K_veh",
-         .unit = "veh",
-         .extent = "green",
-         .meaning = "vehicles that pass the stop line within green time number K of `measure.green`",
-         .value = [](const MeasuredLight& light) { return light.summary.passed[light.key]; },
-         .summary_decimals = kLeftOut,
-         .family = &kGreens},
         {.column = "queue_emptied_s",
          .unit = "s",
          .extent = "green",
          .meaning = "time from the start of green until the last queued vehicle passes the stop line; empty: it does "
                     "not pass within the green",
          .value = [](const MeasuredLight& light) { return light.summary.emptied_s; },
-         .summary_decimals = 3},
+         .summary_decimals = 3,
+         .figure = {.axis = "time until the queue has passed",
+                    .sweep = {.change = "time saved against {} [%]", .better = Better::lower}}},
     };
 }
 
@@ -76,7 +94,9 @@ MetricList<MeasuredLight> steady_state_metrics() {
          .meaning = "mean headway of these vehicles: (length + net gap) / speed",
          .value = [](const MeasuredLight& light) { return light.summary.steady.headway_s; },
          .summary_decimals = 5,
-         .console = {.heading = "headway", .decimals = 3}},
+         .console = {.heading = "headway", .decimals = 3},
+         .figure = {.axis = "headway in steady state",
+                    .sweep = {.change = "headway saved against {} [%]", .better = Better::lower}}},
         {.column = "policy_headway_s",
          .unit = "s",
          .meaning = "headway of the spacing policy at the cruise speed",
@@ -173,9 +193,78 @@ MetricList<MeasuredLight> queue_metrics() {
 
 const MetricList<MeasuredLight>& single_light_metrics() {
     static const MetricList<MeasuredLight> kMetrics = joined_lists<MeasuredLight>(
-        {passage_metrics(), steady_state_metrics(), stop_line_metrics(), queue_metrics(),
+        {passage_metrics(), numbered_green_metrics(green_metrics()), emptying_metrics(), steady_state_metrics(),
+         stop_line_metrics(), queue_metrics(),
          count_metrics<MeasuredLight>({"vehicles_entered", "vehicles_exited", "overlaps", "red_entries",
                                        "forced_red_entries", "lost_vehicles", "state_hash"})});
+    return kMetrics;
+}
+
+MetricList<MeasuredLight> numbered_green_metrics(const MetricList<MeasuredGreen>& greens) {
+    static std::deque<std::string> texts;  // what the string views of the metrics refer to
+    const auto keep = [](std::string text) { return std::string_view(texts.emplace_back(std::move(text))); };
+    MetricList<MeasuredLight> metrics;
+    for (const Metric<MeasuredGreen>& metric : greens) {
+        if (!metric.in_sweeps()) continue;
+        const std::string_view name = without_unit(metric.column, metric.unit);
+        metrics.push_back(
+            {.column = keep(fmt::format("{}_K{}", name, metric.column.substr(name.size()))),
+             .unit = metric.unit,
+             .extent = metric.extent,
+             .meaning = keep(with_key(metric.meaning, kThisGreen, "green time number K of `measure.green`")),
+             .value =
+                 [value = metric.value](const MeasuredLight& light) {
+                     return value({nullptr, light.scenario, light.summary, light.key});
+                 },
+             .summary_decimals = kLeftOut,
+             .sweep_decimals = metric.sweep_decimals,
+             .has_mean = metric.has_mean,
+             .family = &kGreens,
+             .figure = metric.figure});
+    }
+    return metrics;
+}
+
+const MetricList<MeasuredGreen>& green_metrics() {
+    static const MetricList<MeasuredGreen> kMetrics{
+        {.column = "green_s",
+         .unit = "s",
+         .meaning = "green time",
+         .value = [](const MeasuredGreen& run) { return run.green_s(); },
+         .summary_decimals = 3,
+         .sweep_decimals = kLeftOut},
+        {.column = "passed_veh",
+         .unit = "veh",
+         .extent = "green",
+         .meaning = "vehicles that pass the stop line within GREEN",
+         .value = [](const MeasuredGreen& run) { return run.summary.passed[run.green]; },
+         .console = {.heading = "Vehicles passed within the green time",
+                     .note = "*: the queue empties before the green time ends; more demand.vehicles would raise the "
+                             "count",
+                     .value = passed_text},
+         .figure = {.axis = "vehicles passed in green time K",
+                    .sweep = {.change = "gain over {} [%]", .name = "vehicles passed in the last green"}}},
+        {.column = "baseline",
+         .meaning = "name of the baseline population; empty without one",
+         .value = [](const MeasuredGreen& run) { return run.baseline() == nullptr ? "" : run.baseline()->name; },
+         .sweep_decimals = kLeftOut},
+        {.column = "baseline_passed_veh",
+         .unit = "veh",
+         .extent = "green",
+         .meaning = "vehicles of the baseline that pass the stop line within GREEN",
+         .value =
+             [](const MeasuredGreen& run) {
+                 return run.baseline() == nullptr ? MetricValue("") : MetricValue(run.baseline()->passed[run.green]);
+             },
+         .sweep_decimals = kLeftOut},
+        {.column = "improvement_percent",
+         .unit = "%",
+         .extent = "green",
+         .meaning = "gain of `passed_veh` over `baseline_passed_veh`",
+         .value = [](const MeasuredGreen& run) { return run.summary.improvement_percent[run.green]; },
+         .summary_decimals = 2,
+         .sweep_decimals = kLeftOut,
+         .console = {.heading = "improvement over BASELINE [%]", .value = improvement_text}}};
     return kMetrics;
 }
 
@@ -183,6 +272,16 @@ std::vector<MeasuredLight> measured_runs(const SingleLightReport& report) {
     std::vector<MeasuredLight> runs;
     for (std::size_t k = 0; k < report.populations.size(); ++k) {
         runs.push_back({report.scenario, report.populations[k], report.runs[k]});
+    }
+    return runs;
+}
+
+std::vector<MeasuredGreen> measured_greens(const SingleLightReport& report) {
+    std::vector<MeasuredGreen> runs;
+    for (const PopulationSummary& summary : report.populations) {
+        for (std::size_t green = 0; green < report.scenario.measure.green_s.size(); ++green) {
+            runs.push_back({&report, report.scenario, summary, green});
+        }
     }
     return runs;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "runs/metrics/shared_metrics.h"
@@ -24,7 +25,36 @@ struct MeasuredLight {
 
 const MetricList<MeasuredLight>& single_light_metrics();
 
-// Returns the runs of all populations of a report.
+// The finished run of one population, up to the end of one green time of `measure.green`.
+struct MeasuredGreen {
+    const SingleLightReport* report;  // null in sweeps, which run one population at a time
+    const Scenario& scenario;
+    const PopulationSummary& summary;
+    std::size_t green = 0;  // index in measure.green
+    std::size_t key = 0;
+
+    const std::string& population() const { return summary.name; }
+    double green_s() const { return scenario.measure.green_s[green]; }
+    // Returns the summary of the baseline; null without a baseline.
+    const PopulationSummary* baseline() const {
+        return report != nullptr && report->baseline ? &report->populations[*report->baseline] : nullptr;
+    }
+};
+
+// The metrics of each green time: the columns of improvement.csv, and parts of a table on the console. A metric that
+// sweeps have has a column for each green time there: `passed_veh` becomes `passed_K_veh`, where K is the number of the
+// green time, also in the texts for figures. In meanings, kThisGreen stands for the green time. In console headings,
+// kTheBaseline stands for the name of the baseline. Such a part is left out if there is no baseline.
+const MetricList<MeasuredGreen>& green_metrics();
+inline constexpr std::string_view kThisGreen = "GREEN";
+inline constexpr std::string_view kTheBaseline = "BASELINE";
+
+// Returns the metrics of sweeps with a column for each green time. They refer to texts that exist until the end of the
+// program.
+MetricList<MeasuredLight> numbered_green_metrics(const MetricList<MeasuredGreen>& greens);
+
+// Return the runs of all populations of a report, and each of them up to each green time.
 std::vector<MeasuredLight> measured_runs(const SingleLightReport& report);
+std::vector<MeasuredGreen> measured_greens(const SingleLightReport& report);
 
 }  // namespace stopline

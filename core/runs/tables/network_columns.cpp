@@ -3,6 +3,7 @@
 
 #include "runs/metrics/metric_groups.h"
 #include "runs/tables/column_docs.h"
+#include "scenario/kinds/network_kind.h"
 
 namespace stopline {
 
@@ -23,7 +24,7 @@ std::vector<ColumnDoc> series_columns(const std::vector<ColumnDoc>& summary) {
 }
 
 std::vector<TableDoc> result_tables() {
-    const std::vector<ColumnDoc>& summary = metric_group("network").summary;
+    const std::vector<ColumnDoc>& summary = metric_group(kRunAsNetwork).summary;
     return {
         {"network/summary.csv",
          "Grids, streets and imported networks. One row for each population.\n\n"

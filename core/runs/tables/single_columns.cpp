@@ -1,6 +1,9 @@
 // Descriptions of the columns in the tables of a single intersection and of a single light.
 #include "runs/metrics/metric_groups.h"
+#include "runs/metrics/metric_tables.h"
+#include "runs/single_light/single_light_metrics.h"
 #include "runs/tables/column_docs.h"
+#include "scenario/kinds/network_kind.h"
 
 namespace stopline {
 
@@ -15,6 +18,12 @@ std::vector<ColumnDoc> motion_columns() {
             {"request_mps2", "m/s2", "", "acceleration that the controller requests"},
             {"net_gap_m", "m", "", "gap to the rear of the leader; empty: no leader"},
             {"gear", "", "", "engaged gear, from 1; 0 in the mesoscale mode"}};
+}
+
+std::vector<ColumnDoc> green_columns() {
+    std::vector<ColumnDoc> columns = metric_docs(summary_columns(green_metrics(), nullptr));
+    for (ColumnDoc& column : columns) column.meaning = with_key(column.meaning, kThisGreen, "this time");
+    return columns;
 }
 
 std::vector<ColumnDoc> joined(std::vector<ColumnDoc> first, const std::vector<ColumnDoc>& second) {
@@ -32,7 +41,7 @@ std::vector<TableDoc> intersection_table_docs() {
     return {
         {"intersection/summary.csv",
          "One row for each population. The window is `measure.cycles` whole cycles after `measure.warmup_cycles`.",
-         with_population(metric_group("intersection").summary)},
+         with_population(metric_group(kRunAsIntersection).summary)},
         {"intersection/headways.csv",
          "One row for each population, lane and queue position. Only vehicles that stood in the queue count.",
          {kPopulationColumn,
@@ -61,15 +70,9 @@ std::vector<TableDoc> intersection_table_docs() {
 std::vector<TableDoc> single_light_table_docs() {
     return {
         {"single_light/summary.csv", "One row for each population.",
-         with_population(metric_group("single_light").summary)},
-        {"single_light/improvement.csv",
-         "One row for each population and each green time of `measure.green`.",
-         {kPopulationColumn,
-          {"green_s", "s", "", "green time"},
-          {"passed_veh", "veh", "green", "vehicles that pass the stop line within this time"},
-          {"baseline", "", "", "name of the baseline population; empty without one"},
-          {"baseline_passed_veh", "veh", "green", "vehicles of the baseline that pass the stop line within this time"},
-          {"improvement_percent", "%", "green", "gain of `passed_veh` over `baseline_passed_veh`"}}},
+         with_population(metric_group(kRunAsSingleLight).summary)},
+        {"single_light/improvement.csv", "One row for each population and each green time of `measure.green`.",
+         with_population(green_columns())},
         {"single_light/passages.csv",
          "One row for each vehicle that passes the stop line in the green.",
          {kPopulationColumn,

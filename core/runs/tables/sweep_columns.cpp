@@ -4,6 +4,7 @@
 
 #include "runs/metrics/metric_groups.h"
 #include "runs/tables/column_docs.h"
+#include "scenario/kinds/network_kind.h"
 
 namespace stopline {
 
@@ -18,7 +19,7 @@ std::vector<ColumnDoc> run_columns() {
         {"seed", "", "", "seed of the run"},
     };
     for (const MetricGroup& group : metric_groups()) {
-        const std::string mark = group.name == "network" ? "" : std::string(group.title) + ": ";
+        const std::string mark = group.name == kRunAsNetwork ? "" : std::string(group.title) + ": ";
         for (ColumnDoc column : group.sweep) {
             const bool is_known = std::any_of(columns.begin(), columns.end(),
                                               [&](const ColumnDoc& known) { return known.name == column.name; });

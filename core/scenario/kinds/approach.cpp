@@ -55,7 +55,7 @@ void check_approach(const Scenario& scenario, Checker& check) {
 extern const NetworkKind kApproachKind{
     .name = "approach",
     .meaning = "a straight road with one stop line",
-    .run = "single_light",
+    .run = kRunAsSingleLight,
     .signal_groups = 1,
     .has_intersections = false,
     .fields = approach_fields,

@@ -82,7 +82,7 @@ DiagramStreet middle_street(const NetworkSettings& network, const LaneGraph& /*g
 extern const NetworkKind kGridKind{
     .name = "grid",
     .meaning = "equal intersections in rows and columns",
-    .run = "network",
+    .run = kRunAsNetwork,
     .signal_groups = 2,
     .has_measured_area = true,
     .fields = grid_fields,

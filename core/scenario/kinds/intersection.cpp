@@ -137,7 +137,7 @@ double intersection_radius_m(const NetworkSettings& network, const Lane& /*lane*
 extern const NetworkKind kIntersectionKind{
     .name = "intersection",
     .meaning = "one intersection with four equal legs",
-    .run = "intersection",
+    .run = kRunAsIntersection,
     .signal_groups = 2,
     .ends_after_cycles = true,
     .fields = intersection_fields,

@@ -2,7 +2,7 @@
 // them, and builds the lane graph, the signals and the demand from them. Code outside this folder should read the
 // properties of a kind instead of comparing its name.
 //
-// To add a kind, write a file scenario/kinds/<name>.cpp that defines a NetworkKind, and register it in
+// To add a kind, write a file scenario/kinds/<name>.cpp that defines a NetworkKind, and add it to the list in
 // network_kinds.cpp.
 #pragma once
 
@@ -22,6 +22,12 @@
 
 namespace stopline {
 
+// The names of the ways of running a scenario (RunKind in runs/run_kind.h). Tables of results have these names before
+// their own in scenarios/COLUMNS.md.
+inline constexpr const char* kRunAsSingleLight = "single_light";
+inline constexpr const char* kRunAsIntersection = "intersection";
+inline constexpr const char* kRunAsNetwork = "network";
+
 // The street that a time-space diagram shows.
 struct DiagramStreet {
     std::string lane_prefix;  // beginning of the names of the lanes on which vehicles enter the street; "": no street
@@ -31,7 +37,7 @@ struct DiagramStreet {
 struct NetworkKind {
     const char* name = "";
     const char* meaning = "";  // description in lists for the user
-    // How a scenario is run, measured and reported: the name of a RunKind (runs/run_kind.h).
+    // How a scenario is run, measured and reported: one of the names above.
     const char* run = "";
 
     // Number of signal groups of each intersection that the section `signal` describes. 0: the kind has signals of its

@@ -2,26 +2,23 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/defined_elsewhere.h"
 #include "base/input_error.h"
 #include "scenario/kinds/network_kind.h"
 
 namespace stopline {
 
-extern const NetworkKind kApproachKind;
-extern const NetworkKind kIntersectionKind;
-extern const NetworkKind kGridKind;
-extern const NetworkKind kStreetsKind;
-extern const NetworkKind kSumoKind;
-
-namespace {
-
-std::vector<const NetworkKind*>& kinds() {
-    static std::vector<const NetworkKind*> all{&kApproachKind, &kIntersectionKind, &kGridKind, &kStreetsKind,
-                                               &kSumoKind};
+// Returns the kinds. The order is the order in lists for the user.
+static std::vector<const NetworkKind*>& kinds() {
+    static std::vector<const NetworkKind*> all{
+        STOPLINE_DEFINED_ELSEWHERE(NetworkKind, kApproachKind),
+        STOPLINE_DEFINED_ELSEWHERE(NetworkKind, kIntersectionKind),
+        STOPLINE_DEFINED_ELSEWHERE(NetworkKind, kGridKind),
+        STOPLINE_DEFINED_ELSEWHERE(NetworkKind, kStreetsKind),
+        STOPLINE_DEFINED_ELSEWHERE(NetworkKind, kSumoKind),
+    };
     return all;
 }
-
-}  // namespace
 
 std::span<const NetworkKind* const> network_kinds() { return kinds(); }
 

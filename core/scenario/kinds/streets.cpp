@@ -120,7 +120,7 @@ DiagramStreet outermost_street(const NetworkSettings& /*network*/, const LaneGra
 extern const NetworkKind kStreetsKind{
     .name = "streets",
     .meaning = "signalised intersections joined by streets, from a file",
-    .run = "network",
+    .run = kRunAsNetwork,
     .has_measured_area = true,
     .reports_approaches = true,
     .fields = street_fields,

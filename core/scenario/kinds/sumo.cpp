@@ -59,7 +59,7 @@ std::vector<FieldProblem> import_files(Scenario& scenario, const std::filesystem
 extern const NetworkKind kSumoKind{
     .name = "sumo",
     .meaning = "a network with its signals and trips, imported from files of SUMO",
-    .run = "network",
+    .run = kRunAsNetwork,
     .has_trips = true,
     .is_exportable = false,
     .has_measured_area = true,

@@ -54,7 +54,7 @@ void start_signals(const Model& model, State& state) {
     const std::size_t groups = at(model.graph.signal_groups);
     signals.lights.assign(groups, Light::red);
     signals.since_tick.assign(groups, 0);
-    signals.green_start_tick.assign(groups, -1);
+    signals.green_start_tick.assign(groups, kNoGreen);
     signals.next_step_tick.assign(model.signals.size(), 0);
     signals.memory.resize(model.signals.size());
     signals.detectors = signal_detectors(model);

@@ -57,7 +57,7 @@ private:
         const double share = kTargetGapFactor * driver.lane_change.gap_share;
         const double spare_gap_m =
             ahead.gap_m - share * desired_gap_m(model_, policy, std::min(speed_mps, ahead.speed_mps));
-        return std::max(braking_speed_mps(braking_mps2, kLandingTime_s, spare_gap_m, ahead.speed_mps),
+        return std::max(braking_speed_mps(braking_mps2, kBrakingReaction_s, spare_gap_m, ahead.speed_mps),
                         ahead.speed_mps - kFallBack_mps);
     }
 

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <span>
 
+#include "driver/acceleration_profile.h"
 #include "driver/following_model.h"
-#include "driver/leader_profile.h"
 #include "sim/mesoscale/following_types.h"
 
 namespace stopline {
@@ -39,14 +39,14 @@ struct MesoStep {
     double leader_constant_power_speed_mps;  // above this speed, leader_mps2 falls as 1 / speed
     // Acceleration of platoon leaders by speed. If it is not nullptr, the kernels ignore leader_mps2 and
     // leader_constant_power_speed_mps.
-    const LeaderProfile* leader_profile;
+    const AccelerationProfile* leader_profile;
     // Lower bound of the acceleration, as a table by speed. On lanes with a speed limit above calibrated_limit_mps, a
     // vehicle that speeds up freely accelerates at least at this rate. nullptr: no lane has such a limit.
-    const LeaderProfile* power_profile;
+    const AccelerationProfile* power_profile;
     double calibrated_limit_mps;
     // [policy] highest acceleration of the vehicles, as a table by speed (Model::acceleration_limits). nullptr: the
     // car-following models alone limit the accelerations.
-    const LeaderProfile* acceleration_limits;
+    const AccelerationProfile* acceleration_limits;
     // True: V2V relays the start of a queue, and platoon leaders anticipate the speed of the vehicle ahead.
     bool relays;
     // True: a platoon leader has the same safe speed as a follower, so the kernels compute the safe speed only once.

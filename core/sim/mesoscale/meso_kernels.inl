@@ -104,7 +104,7 @@ STOPLINE_INLINE R platoon_leader_acceleration_mps2(const MesoStep& t, const R& s
     if (t.leader_profile != nullptr) {
         // The profile is evaluated at the speed in the middle of the step. The acceleration at the start of the step
         // would be wrong in a step with a gear change.
-        const LeaderProfile& profile = *t.leader_profile;
+        const AccelerationProfile& profile = *t.leader_profile;
         const R first_mps2 = table_value(profile.acceleration_mps2, R(speed_mps * profile.bins_per_mps));
         const R middle_mps = speed_mps + first_mps2 * (0.5 * t.dt);
         return table_value(profile.acceleration_mps2, R(middle_mps * profile.bins_per_mps));
@@ -196,7 +196,7 @@ struct Block {
         constexpr int kSize = std::is_same_v<R, double> ? 1 : kWide;
         std::array<double, std::size_t{kSize}> reachable{};
         for (int j = 0; j < kSize; ++j) {
-            const LeaderProfile& limit = t.acceleration_limits[std::max(s.policy[i + j], 0)];
+            const AccelerationProfile& limit = t.acceleration_limits[std::max(s.policy[i + j], 0)];
             reachable[static_cast<std::size_t>(j)] = s.speed[i + j] + limit.at(s.speed[i + j]) * t.dt;
         }
         return get<R>(reachable.data());

@@ -8,8 +8,8 @@
 
 #include "demand/demand_plan.h"
 #include "driver/acceleration_laws.h"
+#include "driver/acceleration_profile.h"
 #include "driver/following_model.h"
-#include "driver/leader_profile.h"
 #include "network/detector.h"
 #include "network/lane_graph.h"
 #include "signals/phase_priority.h"
@@ -122,12 +122,12 @@ struct Model {
     double calibrated_limit_mps = 1e9;
     bool has_fast_lanes = false;  // true: on some lanes, limit times speed_factor exceeds calibrated_limit_mps
     // [policy] highest accelerations of the vehicles; empty: the car-following models alone limit the accelerations.
-    std::vector<LeaderProfile> acceleration_limits;
-    double powertrain_delay_s = 0.0;  // mesoscale mode: start-up delay of a vehicle (MesoSettings::start_delay_s)
-    LeaderProfile power_profile;      // lower bound of the acceleration on these fast lanes, by speed
+    std::vector<AccelerationProfile> acceleration_limits;
+    double powertrain_delay_s = 0.0;    // mesoscale mode: start-up delay of a vehicle (MesoSettings::start_delay_s)
+    AccelerationProfile power_profile;  // lower bound of the acceleration on these fast lanes, by speed
     // Acceleration of platoon leaders by speed. If this table is not empty (bins_per_mps above 0), it replaces
     // leader_mps2 and leader_constant_power_speed_mps.
-    LeaderProfile leader_profile;
+    AccelerationProfile leader_profile;
     // Largest number of stopped vehicles that one V2V start message (StartMessage in partition.h) reaches in a step. 0:
     // no messages.
     int start_relay_vehicles = 0;

@@ -78,6 +78,38 @@ TEST(NewMetric, OfASingleLightAppearsEverywhere) {
     expect_everywhere(single_light_metrics(), MeasuredLight{scenario, summary, run});
 }
 
+// A metric of each green time is a column of improvement.csv and a numbered column of sweeps.
+TEST(NewMetric, OfAGreenTimeAppearsEverywhere) {
+    SingleLightReport report;
+    report.scenario = short_scenario();
+    report.populations.resize(1);
+    report.populations[0].name = "CDG";
+    report.populations[0].passed = {3, 6, 9};
+    report.populations[0].improvement_percent = {0.0, 0.0, 0.0};
+    MetricList<MeasuredGreen> metrics = green_metrics();
+    metrics.push_back({.column = "axles_m",
+                       .unit = "m",
+                       .extent = "green",
+                       .meaning = "axles that pass within GREEN",
+                       .value = [](const MeasuredGreen& run) { return 0.5 * run.summary.passed[run.green]; },
+                       .summary_decimals = 1,
+                       .sweep_decimals = 2});
+    const CsvTable table = parse_csv(metrics_csv(metrics, report.scenario, measured_greens(report)), "improvement");
+    EXPECT_EQ(table.columns.back(), "axles_m");
+    ASSERT_EQ(table.rows.size(), 3U);
+    EXPECT_EQ(table.rows[1].back(), "3.0");
+
+    const MetricList<MeasuredLight> numbered = numbered_green_metrics(metrics);
+    const RunResult run;
+    const std::vector<RunMetric> in_sweep =
+        sweep_metrics(numbered, MeasuredLight{report.scenario, report.populations[0], run});
+    ASSERT_EQ(in_sweep.size(), 6U);
+    EXPECT_EQ(in_sweep[0].column + " " + in_sweep[0].value, "passed_1_veh 3");
+    EXPECT_EQ(in_sweep.back().column + " " + in_sweep.back().value, "axles_3_m 4.50");
+    EXPECT_EQ(metric_docs(sweep_columns(numbered, nullptr)).back().meaning,
+              "axles that pass within green time number K of `measure.green`");
+}
+
 TEST(NewMetric, OfAnIntersectionAppearsEverywhere) {
     const Scenario scenario = shipped("intersection.yaml");
     const IntersectionResult result = intersection_result(scenario);

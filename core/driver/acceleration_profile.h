@@ -12,7 +12,7 @@
 namespace stopline {
 
 // An acceleration as a function of speed. It is constant within each bin and beyond the last bin.
-struct LeaderProfile {
+struct AccelerationProfile {
     static constexpr int kBins = 64;
     double bins_per_mps = 0.0;  // 0: no profile
     std::array<double, kBins> acceleration_mps2{};
@@ -22,15 +22,16 @@ struct LeaderProfile {
         return acceleration_mps2[static_cast<std::size_t>(bin)];
     }
 };
+
 // Converts leader_profile_mps and leader_profile_mps2 of the settings into bins. Each bin gets the acceleration of the
 // listed speed that is nearest to the middle of the bin. If the settings list no speeds, bins_per_mps is 0.
-LeaderProfile leader_profile(const MesoSettings& settings);
+AccelerationProfile leader_profile(const MesoSettings& settings);
 
 // Tabulates an acceleration, m/s2, over the speed, m/s. Speeds beyond `top_mps` have the value of the last bin.
-LeaderProfile tabulate_acceleration(const std::function<double(double)>& acceleration_mps2, double top_mps);
+AccelerationProfile tabulate_acceleration(const std::function<double(double)>& acceleration_mps2, double top_mps);
 
 // Returns, by speed, the lowest accelerations on lanes whose speed limit is above the limit for which the models were
 // calibrated. The values come from DriverTables::power_mps2.
-LeaderProfile power_profile(const DriverTables& driver);
+AccelerationProfile power_profile(const DriverTables& driver);
 
 }  // namespace stopline
