@@ -269,9 +269,8 @@ inline R step_mixed_slots(const MesoStreams& s, int i, std::span<const Following
         models[k].family().kernels(kSize == 1).block_speeds(s, i, models[k], policy, extra_gap, t, next_mps.data());
     }
     const R next = get<R>(next_mps.data());
-    const auto move = [&](const auto& block) STOPLINE_INLINE_LAMBDA {
-        return block.move(block.within_acceleration_limits(next));
-    };
+    const auto move = [&](const auto& block)
+                          STOPLINE_INLINE_LAMBDA { return block.move(block.within_acceleration_limits(next)); };
     return t.turn_share >= 1.0 ? move(Block<R, true>(s, i, extra_gap, t)) : move(Block<R, false>(s, i, extra_gap, t));
 }
 
