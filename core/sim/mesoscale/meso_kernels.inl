@@ -141,7 +141,9 @@ constexpr double kNoExtraGap[kWide] = {};
 
 // Properties of a run. The kernels are compiled once for each combination.
 struct MesoVariant {
-    int policies;           // number of policies if it is 1 or 2; 0: the kernels go through all policies
+    // Number of policies, 1 or 2, if the models alone limit the accelerations. 0: the kernels go through all policies,
+    // and apply MesoStep::acceleration_limits.
+    int policies;
     bool power_limit;       // true: at high speed the acceleration of at least one policy falls (constant power)
     bool instant_slowdown;  // true: vehicles reach the braking curve before a turn in one step (turn_share = 1)
 };
@@ -190,22 +192,22 @@ struct Block {
                                                s.is_platoon_leader + i);
     }
 
-    // Returns the speeds that the vehicles reach in this step with their highest accelerations
-    // (MesoStep::acceleration_limits).
-    STOPLINE_INLINE R reachable_mps() const {
+    // Returns the next speeds, or the speeds that the vehicles reach in this step with their highest accelerations
+    // (MesoStep::acceleration_limits) if these speeds are lower.
+    STOPLINE_INLINE R within_acceleration_limits(const R& next_mps) const {
+        if (t.acceleration_limits == nullptr) return next_mps;
         constexpr int kSize = std::is_same_v<R, double> ? 1 : kWide;
         std::array<double, std::size_t{kSize}> reachable{};
         for (int j = 0; j < kSize; ++j) {
             const AccelerationProfile& limit = t.acceleration_limits[std::max(s.policy[i + j], 0)];
             reachable[static_cast<std::size_t>(j)] = s.speed[i + j] + limit.at(s.speed[i + j]) * t.dt;
         }
-        return get<R>(reachable.data());
+        return min_of(next_mps, get<R>(reachable.data()));
     }
 
-    // Moves the vehicles. Returns 1 for each vehicle that overlaps its leader, else 0.
-    STOPLINE_INLINE R move(const R& next_mps) const {
+    // Moves the vehicles with their next speeds. Returns 1 for each vehicle that overlaps its leader, else 0.
+    STOPLINE_INLINE R move(const R& next) const {
         constexpr double kRounding_m = 1e-6;
-        const R next = t.acceleration_limits == nullptr ? next_mps : min_of(next_mps, reachable_mps());
         const auto occupied = occupied_slots<R>(s.id + i);
         put(s.acceleration + i, select(occupied, R((next - speed) * (1.0 / t.dt)), get<R>(s.acceleration + i)));
         put(s.speed + i, select(occupied, next, speed));
@@ -234,6 +236,7 @@ STOPLINE_INLINE R step_slots(const MesoStreams& s, int i, std::span<const Follow
             const R has_policy = STOPLINE_FLAG(R, block.policy == static_cast<double>(k));
             next = choose(has_policy, next_speed(models[k].template as<Following>(), has_policy), next);
         }
+        next = block.within_acceleration_limits(next);
     }
     return block.move(next);
 }
@@ -270,8 +273,9 @@ inline R step_mixed_slots(const MesoStreams& s, int i, std::span<const Following
         models[k].family().kernels(kSize == 1).block_speeds(s, i, models[k], policy, extra_gap, t, next_mps.data());
     }
     const R next = get<R>(next_mps.data());
-    return t.turn_share >= 1.0 ? Block<R, true>(s, i, extra_gap, t).move(next)
-                               : Block<R, false>(s, i, extra_gap, t).move(next);
+    const auto move = [&](const auto& block)
+                          STOPLINE_INLINE_LAMBDA { return block.move(block.within_acceleration_limits(next)); };
+    return t.turn_share >= 1.0 ? move(Block<R, true>(s, i, extra_gap, t)) : move(Block<R, false>(s, i, extra_gap, t));
 }
 
 STOPLINE_INLINE double sum(double value) { return value; }
@@ -349,7 +353,8 @@ inline void follow(const FollowingModel& model, const MesoStep& step, const Foll
     }
 }
 
-// A model for which more versions of the kernels are compiled: for one and for two policies, and without power limit.
+// A model for which more versions of the kernels are compiled: for one and for two policies without acceleration
+// limits, and for policies without power limit.
 template <class Following, class R>
 concept HasFastVersions = requires(const R& policy, const Following& model) {
     Following::of_two_policies(policy, model, model);
@@ -374,6 +379,7 @@ inline int step(const MesoStreams& streams, std::span<const int> blocks, std::sp
         const auto step_limited = [&](auto policies) {
             return has_power_limit ? step_with(policies, std::true_type()) : step_with(policies, std::false_type());
         };
+        if (t.acceleration_limits != nullptr) return step_limited(kAnyNumber);
         if (models.size() == 1) return step_limited(std::integral_constant<int, 1>());
         if (models.size() == 2) return step_limited(std::integral_constant<int, 2>());
         return step_limited(kAnyNumber);
