@@ -86,7 +86,7 @@ TEST(MesoStart, PlatoonLeaderAcceleratesAsInFullDynamics) {
     for (std::size_t k = 1; k < full.size(); ++k) EXPECT_NEAR(meso[k] - meso[0], full[k] - full[0], 0.15) << k;
 }
 
-TEST(LeaderProfile, DependsOnTheVehicle) {
+TEST(AccelerationProfile, DependsOnTheVehicle) {
     MesoSettings petrol;
     measure_leader_profile(single_light("petrol_eu4_72kw", "CDG"), petrol);
     ASSERT_EQ(petrol.leader_profile_mps.size(), 48U);
