@@ -99,6 +99,12 @@ void set_meso(const MesoSettings& settings, Model& model) {
     });
     model.start_relay_vehicles = settings.start_relay_vehicles;
     model.powertrain_delay_s = settings.start_delay_s;
+    const double common_mps2 = model.common_driver().deceleration_mps2;
+    const auto differs = [&](const DriverPlan& driver) { return driver.tables.deceleration_mps2 != common_mps2; };
+    if (std::any_of(model.drivers.begin(), model.drivers.end(), differs)) {
+        for (int k = 0; k < static_cast<int>(model.policies.size()); ++k)
+            model.slow_downs_mps2.push_back(model.driver_of(k).tables.deceleration_mps2);
+    }
     for (DriverPlan& driver : model.drivers) {
         driver.hesitation_ticks = to_ticks(driver.hesitation_s + settings.start_delay_s, model.step_s);
     }

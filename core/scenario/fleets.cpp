@@ -26,14 +26,12 @@ struct CommonSetting {
     const char* field = "";
     const char* unit = "";
     double (*value)(const DriverSettings& driver) = nullptr;
-    bool meso_only = false;  // true: full dynamics uses the value of each driver
 };
-constexpr std::array<CommonSetting, 5> kCommonSettings{{
+constexpr std::array<CommonSetting, 4> kCommonSettings{{
     {"cacc.radar_delay", "ms", [](const DriverSettings& d) { return d.cacc.radar_delay_s; }},
     {"cacc.radar_range", "m", [](const DriverSettings& d) { return d.cacc.radar_range_m; }},
     {"cacc.v2v_delay", "ms", [](const DriverSettings& d) { return d.cacc.v2v_delay_s; }},
     {"cacc.deceleration_emergency", "m/s2", [](const DriverSettings& d) { return d.cacc.deceleration_emergency_mps2; }},
-    {"free_drive.deceleration", "m/s2", [](const DriverSettings& d) { return d.free_drive.deceleration_mps2; }, true},
 }};
 
 void check_population(const Scenario& scenario, const PopulationSettings& population, Checker& check) {
@@ -41,16 +39,14 @@ void check_population(const Scenario& scenario, const PopulationSettings& popula
     for (std::size_t k = 1; k < population.components.size(); ++k) {
         const DriverSettings& own = driver_of(scenario, population.components[k]);
         for (const CommonSetting& setting : kCommonSettings) {
-            if (setting.meso_only && !scenario.is_meso()) continue;
             const double value = setting.value(own);
             const double first_value = setting.value(first);
             if (value == first_value) continue;
             check.error(component_field(population, k) + ".driver",
                         fmt::format("{} is {}, but the first component of the population has {}: all drivers of a "
-                                    "population must have the same value{}",
+                                    "population must have the same value",
                                     setting.field, short_text(value, unit(setting.unit)),
-                                    short_text(first_value, unit(setting.unit)),
-                                    setting.meso_only ? " in the mesoscale mode" : ""));
+                                    short_text(first_value, unit(setting.unit))));
         }
     }
 }

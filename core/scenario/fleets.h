@@ -22,8 +22,8 @@ std::vector<const PopulationSettings::Component*> all_components(const Scenario&
 std::string component_name(const PopulationSettings::Component& component);
 
 // Checks that all drivers of a population have the same delays of radar and V2V, range of the radar and maximum
-// braking. A constant distance is safe only if no vehicle brakes harder than its follower can. In the mesoscale mode,
-// all drivers must also have the same free_drive.deceleration. Also reports late_brake_problems().
+// braking. A constant distance is safe only if no vehicle brakes harder than its follower can. Also reports
+// late_brake_problems().
 void check_fleets(const Scenario& scenario, Checker& check);
 
 // Full dynamics: returns the components whose gaps are too small because their brakes respond later than those of other

@@ -209,7 +209,8 @@ private:
         }
         const int first = block_.first;
         if (v_.record[at(first)].leader_id < 0) {
-            cap_speed(first, leading_speed_mps(model_, v_.speed_mps[at(first)], v_.limit_mps[at(first)]));
+            const int policy = v_.policy[at(first)];
+            cap_speed(first, leading_speed_mps(model_, policy, v_.speed_mps[at(first)], v_.limit_mps[at(first)]));
         }
     }
 

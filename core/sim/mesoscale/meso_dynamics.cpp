@@ -48,10 +48,10 @@ double stopping_speed_mps(const Model& model, const VehicleArrays& v, int slot, 
     return std::max(braking_speed_mps(b, braking.reaction_s, std::max(room_m, 0.0), 0.0), lowest_mps);
 }
 
-double leading_speed_mps(const Model& model, double speed_mps, double limit_mps) {
+double leading_speed_mps(const Model& model, int policy, double speed_mps, double limit_mps) {
     const double target_mps = model.leader_speed_share * limit_mps;
     if (speed_mps > target_mps)
-        return std::max(target_mps, speed_mps - model.common_driver().deceleration_mps2 * model.step_s);
+        return std::max(target_mps, speed_mps - model.driver_of(policy).tables.deceleration_mps2 * model.step_s);
     return std::min(speed_mps + model.approach_share * (target_mps - speed_mps), target_mps);
 }
 
@@ -79,6 +79,7 @@ MesoStep meso_step(const Model& model, std::int64_t tick, bool prefetches) {
             driver_key(model.seed),
             static_cast<std::uint64_t>(tick),
             model.common_driver().deceleration_mps2,
+            model.slow_downs_mps2.empty() ? nullptr : model.slow_downs_mps2.data(),
             model.approach_share,
             model.turn_share,
             model.leader_mps2,

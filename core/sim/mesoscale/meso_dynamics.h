@@ -16,7 +16,7 @@ double stopping_speed_mps(const Model& model, const VehicleArrays& v, int slot, 
 
 // Returns the speed for the next step of a vehicle without a leader. The speed approaches `limit_mps` times
 // Model::leader_speed_share. A vehicle above this product brakes to it with DriverTables::deceleration_mps2.
-double leading_speed_mps(const Model& model, double speed_mps, double limit_mps);
+double leading_speed_mps(const Model& model, int policy, double speed_mps, double limit_mps);
 
 // Return the arguments of the kernels. `prefetches`: see MesoStep.
 MesoStreams meso_streams(VehicleArrays& vehicles);

@@ -30,6 +30,8 @@ struct MesoStep {
     std::uint64_t driver_key;  // key of the random numbers of drivers, from driver_key()
     std::uint64_t tick;
     double slow_down_mps2;  // deceleration before a lower speed limit
+    // [policy] the same if the drivers have different decelerations; else nullptr
+    const double* slow_downs_mps2;
     double approach_share;  // a vehicle below the speed limit gains at most this share of (limit - speed) in a step
     // Part of its deviation from the braking curve that a vehicle corrects in one step. The braking curve leads to a
     // lower speed limit ahead, such as that of a turn. At each position, it gives the highest speed from which a

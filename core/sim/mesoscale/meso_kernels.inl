@@ -64,8 +64,19 @@ STOPLINE_INLINE R approach_limit(const R& speed_mps, const R& limit_mps, double 
 // loses in a step. `share`: share of the deviation from the curve that is corrected in a step. Full dynamics uses the
 // same equation in slow_down_acceleration().
 template <class R>
-STOPLINE_INLINE R approach_turn(const R& speed_mps, const R& allowed_mps, double share, double braked_mps) {
+STOPLINE_INLINE R approach_turn(const R& speed_mps, const R& allowed_mps, double share, const R& braked_mps) {
     return speed_mps + share * (allowed_mps - speed_mps) - braked_mps * speed_mps / max_of(allowed_mps, R(1.0));
+}
+
+// Returns the decelerations of the vehicles of a block before a lower speed limit.
+template <class R>
+STOPLINE_INLINE R slow_downs_mps2(const MesoStreams& s, const MesoStep& t, int i) {
+    if (t.slow_downs_mps2 == nullptr) return R(t.slow_down_mps2);
+    constexpr int kSize = std::is_same_v<R, double> ? 1 : kWide;
+    std::array<double, std::size_t{kSize}> values{};
+    for (int j = 0; j < kSize; ++j)
+        values[static_cast<std::size_t>(j)] = t.slow_downs_mps2[std::max(s.policy[i + j], 0)];
+    return get<R>(values.data());
 }
 
 // Returns the highest next speed that the speed limits and the speed caps allow.
@@ -78,10 +89,11 @@ STOPLINE_INLINE R allowed_mps(const MesoStreams& s, const MesoStep& t, int i, co
     // Braking curve with the deceleration b to a lower speed limit v_end after the lane: v^2 = v_end^2 + 2 b distance.
     const R end_mps = get<R>(s.end_speed + i);
     const R to_next_limit_m = max_of(R(get<R>(s.next_limit + i) - position), R(0.0));
-    const R allowed_before_turn_mps = square_root(end_mps * end_mps + 2.0 * t.slow_down_mps2 * to_next_limit_m);
+    const R slow_down_mps2 = slow_downs_mps2<R>(s, t, i);
+    const R allowed_before_turn_mps = square_root(end_mps * end_mps + 2.0 * slow_down_mps2 * to_next_limit_m);
     R turn_mps = allowed_before_turn_mps;
     if constexpr (!kInstantSlowdown)
-        turn_mps = approach_turn(speed, allowed_before_turn_mps, t.turn_share, t.slow_down_mps2 * t.dt);
+        turn_mps = approach_turn(speed, allowed_before_turn_mps, t.turn_share, R(slow_down_mps2 * t.dt));
     turn_mps = max_of(turn_mps, speed - braked_mps);
     return select(end_mps < static_cast<double>(kNoLowerLimit_mps), min_of(here_mps, turn_mps), here_mps);
 }

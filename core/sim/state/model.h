@@ -123,6 +123,8 @@ struct Model {
     bool has_fast_lanes = false;  // true: on some lanes, limit times speed_factor exceeds calibrated_limit_mps
     // [policy] highest accelerations of the vehicles; empty: the car-following models alone limit the accelerations.
     std::vector<AccelerationProfile> acceleration_limits;
+    // Mesoscale mode: [policy] deceleration before a lower speed limit; empty if all drivers have the same.
+    std::vector<double> slow_downs_mps2;
     double powertrain_delay_s = 0.0;    // mesoscale mode: start-up delay of a vehicle (MesoSettings::start_delay_s)
     AccelerationProfile power_profile;  // lower bound of the acceleration on these fast lanes, by speed
     // Acceleration of platoon leaders by speed. If this table is not empty (bins_per_mps above 0), it replaces
