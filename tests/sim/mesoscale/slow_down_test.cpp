@@ -15,10 +15,11 @@ namespace {
 // Before a turn, no vehicle is faster than its braking curve v^2 = v_end^2 + 2 b distance allows. Vehicles with the
 // larger deceleration b are faster than the curve of the others.
 TEST(SlowDown, EachDriverHasItsOwnDeceleration) {
-    constexpr double kTolerance_mps = 0.3;  // time in which a vehicle returns to its curve (turn_gain)
+    constexpr double kTolerance_mps = 0.3;  // a vehicle returns to its curve with a delay (turn_gain)
     const Scenario scenario = load_scenario(
         STOPLINE_SOURCE_DIR "/scenarios/intersection.yaml",
-        {"fidelity=meso", "meso=fitted", "demand.right=100 %", "measure.baseline=mixed",
+        {"fidelity=meso", "meso=fitted", "demand={kind: rate, inflow: 800 veh/h, right: 100 %}", "signal.green=60 s",
+         "measure.baseline=mixed",
          "populations=[{name: mixed, components: [{policy: CTG-Ref, share: 50 %, driver: {base: startup_kit, free_drive: "
          "{deceleration: 1 m/s2}}}, {policy: CTG-Ref, share: 50 %, driver: {base: startup_kit, free_drive: "
          "{deceleration: 2 m/s2}}}]}]"});
@@ -29,7 +30,7 @@ TEST(SlowDown, EachDriverHasItsOwnDeceleration) {
         Simulation simulation(model);
         const VehicleArrays& v = simulation.state().vehicles;
         int beyond_slower_curve = 0;
-        while (simulation.time_s() < 120.0) {
+        while (simulation.time_s() < 200.0) {
             simulation.step();
             for (const LaneBlock& block : simulation.state().blocks) {
                 for (int slot = block.first; slot < block.past_last(); ++slot) {
