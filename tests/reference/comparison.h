@@ -48,6 +48,7 @@ struct Comparison {
     // (StopLines::stop_slot), also in the next step, until it decides for that lane again. But slots move when vehicles
     // leave, enter or change lanes. This is a known fault of core/sim; the run ends here and proves nothing.
     bool has_stale_slot = false;
+    std::string uncovered_event;  // the event that the reference engine does not cover, at which the run ended
     Situations situations;
     double max_position_m = 0.0;  // largest difference of a position
     double max_speed_mps = 0.0;
@@ -97,6 +98,7 @@ public:
             compare_passages();
         }
         result_.situations = engine_.situations();
+        result_.uncovered_event = engine_.uncovered_event();
         return result_;
     }
 

@@ -30,7 +30,7 @@ struct Plan {
         std::string speed = "max";  // departSpeed of SUMO
         std::string lane = "best";  // departLane of SUMO
     };
-    enum class Roads { straight, intersection, streets, imported };
+    enum class Roads { straight, intersection, grid, streets, imported };
 
     std::uint64_t seed = 1;
     double duration_s = 60.0;
@@ -45,6 +45,7 @@ struct Plan {
     std::string streets;                 // YAML text
     std::string net;                     // imported network: a file in tests/data
     std::vector<TripPlan> trips;         // imported network
+    double spacing_m = 200.0;            // grid of two intersections: distance of their centres
     double length_m = 300.0;
     double exit_m = 200.0;
     double limit_kmh = 50.0;
@@ -110,16 +111,19 @@ inline std::string network_yaml(const Plan& p) {
                             p.first_green_s, p.green_s, p.yellow_s, p.cycle_s);
         return text;
     }
-    if (p.roads == Plan::Roads::intersection) {
+    if (p.roads == Plan::Roads::intersection || p.roads == Plan::Roads::grid) {
         std::vector<std::string> lanes;
         for (const std::string& movements : p.movements) lanes.push_back("{movements: " + movements + "}");
         text += fmt::format(
-            "network:\n  kind: intersection\n  intersection: {{lanes: [{}], approach_length: {} m, exit_length: {} m, "
+            "network:\n  kind: {}\n  intersection: {{lanes: [{}], approach_length: {} m, exit_length: {} m, "
             "speed_limit: {} km/h}}\n",
-            fmt::join(lanes, ", "), p.length_m, p.exit_m, p.limit_kmh);
+            p.roads == Plan::Roads::grid ? "grid" : "intersection", fmt::join(lanes, ", "), p.length_m, p.exit_m,
+            p.limit_kmh);
+        if (p.roads == Plan::Roads::grid)
+            text += fmt::format("  grid: {{columns: 2, rows: 1, column_spacing: {} m}}\n", p.spacing_m);
         text += fmt::format("signal: {{first_green: {} s, green: {} s, yellow: {} s, all_red: {} s}}\n",
                             p.first_green_s, p.green_s, p.yellow_s, p.all_red_s);
-        text += "measure: {warmup_cycles: 0}\n";
+        text += p.roads == Plan::Roads::grid ? "measure: {window: 1 s}\n" : "measure: {warmup_cycles: 0}\n";
     } else if (p.roads == Plan::Roads::streets) {
         text += "network:\n  kind: streets\n  streets:\n" + p.streets + "measure: {window: 1 s}\n";
     } else {
@@ -133,7 +137,7 @@ inline std::string demand_yaml(const Plan& p) {
     if (p.roads == Plan::Roads::imported) return "";
     std::string text = fmt::format("demand: {{kind: {}, entry_speed: {} km/h, start: {}", p.demand, p.entry_kmh,
                                    p.starts_queued ? "queued" : "empty");
-    const auto lanes = p.roads == Plan::Roads::intersection ? static_cast<int>(p.movements.size()) : p.lanes;
+    const auto lanes = !p.movements.empty() ? static_cast<int>(p.movements.size()) : p.lanes;
     if (p.demand == "queue") text += fmt::format(", vehicles: {}", p.vehicles);
     if (p.demand == "rate") text += fmt::format(", inflow: {} veh/h", p.inflow_vehph * lanes);
     if (p.left_percent > 0.0) text += fmt::format(", left: {} %", p.left_percent);

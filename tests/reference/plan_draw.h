@@ -142,6 +142,16 @@ public:
         return p;
     }
 
+    // Two equal intersections in a row, with a road between them.
+    Plan grid(bool is_mesoscale) {
+        Plan p = turns(is_mesoscale);
+        p.roads = Plan::Roads::grid;
+        p.spacing_m = number(12, 30) * 10.0;
+        p.exit_limit_kmh = 0.0;
+        if (p.demand == "rate") p.demand = "saturated";
+        return p;
+    }
+
     // Junctions of SUMO networks: minor roads, right before left, all-way stops, zippers, roundabouts and signals.
     Plan imported(bool is_mesoscale) {
         static const std::vector<ImportedNet> kNets{
@@ -151,8 +161,27 @@ public:
             {"right_of_way/full_exit.net.xml", {{"wc", "me"}, {"wc", "cn"}, {"sc", "me"}, {"sc", "cn"}}},
             {"right_of_way/right_before_left.net.xml", four_way_trips()},
             {"right_of_way/all_way_stop.net.xml", four_way_trips()},
+            {"right_of_way/all_way_stop.net.xml", four_way_trips()},
             {"right_of_way/one_lane_roundabout.net.xml", roundabout_trips()},
             {"left_turns.net.xml", four_way_trips()},
+            {"wrong_turn_lane.net.xml", four_way_trips()},
+            {"roundabout.net.xml", roundabout_trips()},
+            {"three_lanes.net.xml", {{"ab", "bc"}}},
+            {"fast_lane_drop.net.xml", {{"ab", "cd"}}},
+            {"short_edges.net.xml", {{"e0", "e14"}}},
+            {"crawling_exit.net.xml",
+             {{"nc", "cs"}, {"nc", "me"}, {"sc", "me"}, {"sc", "cn"}, {"wc", "cs"}, {"wc", "me"}, {"wc", "cn"}}},
+            {"short_exit.net.xml",
+             {{"wc", "de"}, {"wc", "dn"}, {"wc", "cs"}, {"nc", "cs"}, {"nc", "de"}, {"sd", "de"}, {"sd", "dn"}}},
+            {"short_weave.net.xml", {{"in", "straight"}, {"in", "right"}}},
+            {"speed_drop.net.xml", {{"ab", "bc"}}},
+            {"lights_grid.net.xml",
+             {{"left0A0", "B1right1"},
+              {"left0A0", "A1top0"},
+              {"top1B1", "A0bottom0"},
+              {"right1B1", "A1left1"},
+              {"bottom1B0", "A1left1"},
+              {"right0B0", "A1top0"}}},
         };
         const ImportedNet& net = kNets[static_cast<std::size_t>(number(0, static_cast<int>(kNets.size()) - 1))];
         Plan p = is_mesoscale ? mesoscale() : full_dynamics();
@@ -194,7 +223,12 @@ private:
     }
 
     Plan any_fleet(bool is_mesoscale) {
-        Plan p = chance(40) ? turns(is_mesoscale) : is_mesoscale ? mesoscale() : full_dynamics();
+        const int kind = number(1, 10);
+        Plan p = kind <= 3      ? turns(is_mesoscale)
+                 : kind <= 5    ? lane_changes(is_mesoscale)
+                 : kind <= 7    ? imported(is_mesoscale)
+                 : is_mesoscale ? mesoscale()
+                                : full_dynamics();
         static const std::vector<std::string> kVehicles{
             "", "", "electric_100kw", "rigid_lorry_12t", "city_bus_12m", "articulated_lorry_35t"};
         p.components.clear();
