@@ -2,13 +2,11 @@
 #pragma once
 
 #include <cmath>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "base/containers/index.h"
-#include "base/input_error.h"
 #include "reference/engine.h"
 #include "reference/plan.h"
 #include "scenario/build_model.h"
@@ -226,75 +224,6 @@ inline bool is_decided_by_rounding(const Plan& plan, std::int64_t steps, const T
         }
     }
     return false;
-}
-
-// A plan in which the engines differ.
-struct Failure {
-    Plan plan;
-    Difference difference;
-
-    std::string text() const {
-        const std::string routes =
-            plan.roads == Plan::Roads::imported ? "\nThe file plan.rou.xml:\n" + routes_of(plan) : "";
-        return difference.text() + routes + "\nThe smallest scenario found:\n" + yaml_of(plan);
-    }
-};
-
-// Simplifies a plan as long as the engines still differ: fewer vehicles, a shorter duration, fewer policies and lanes.
-inline Failure shrunk(Failure failure, const Tolerance& tolerance, const UndocumentedRules& rules = {}) {
-    using Change = std::function<void(Plan&)>;
-    std::vector<Change> changes{
-        [](Plan& p) { p.vehicles /= 2; },
-        [](Plan& p) { --p.vehicles; },
-        [](Plan& p) {
-            p.components = {{p.components.front().policy, 100.0}};
-        },
-        [](Plan& p) {
-            p.components = {{p.components.back().policy, 100.0}};
-        },
-        [](Plan& p) {
-            const double share_percent = p.components.back().share_percent;
-            p.components.pop_back();
-            if (!p.components.empty()) p.components.back().share_percent += share_percent;
-        },
-        [](Plan& p) { p.lanes = 1; },
-        [](Plan& p) { p.demand = "queue"; },
-        [](Plan& p) { p.starts_queued = false; },
-        [](Plan& p) { p.dawdling = 0.0; },
-        [](Plan& p) { p.gradient_percent = 0.0; },
-        [](Plan& p) { p.exit_limit_kmh = 0.0; },
-        [](Plan& p) { p.limit_kmh = 50.0; },
-        [](Plan& p) { p.hesitation_s = 0.0; },
-        [](Plan& p) { p.vehicle = Plan().vehicle; },
-        [](Plan& p) { p.stop_margin_m = Plan().stop_margin_m; },
-        [](Plan& p) { p.stop_mps2 = Plan().stop_mps2; },
-        [](Plan& p) { p.decision_mps2 = Plan().decision_mps2; },
-        [](Plan& p) { p.radar_delay_ms = 150.0; },
-        [](Plan& p) { p.v2v_delay_ms = 20.0; },
-        [](Plan& p) { p.cycle_s = 0.0; },
-        [](Plan& p) { p.first_green_s = 0.0; },
-    };
-    const auto shorten = [&](Plan& p) {
-        p.duration_s = std::ceil(std::max(failure.difference.time_s, p.first_green_s + 1.0));
-    };
-    changes.emplace_back(shorten);
-    for (bool has_changed = true; has_changed;) {
-        has_changed = false;
-        for (const Change& change : changes) {
-            Plan smaller = failure.plan;
-            change(smaller);
-            if (smaller.components.empty() || yaml_of(smaller) == yaml_of(failure.plan)) continue;
-            try {
-                const Comparison comparison = compare_engines(smaller, tolerance, rules);
-                if (!comparison.difference) continue;
-                failure = {smaller, *comparison.difference};
-                has_changed = true;
-            } catch (const InputError&) {
-                continue;  // the smaller plan is no valid scenario
-            }
-        }
-    }
-    return failure;
 }
 
 }  // namespace stopline::reference_engine

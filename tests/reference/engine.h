@@ -86,7 +86,8 @@ private:
                 perception_.leaders_on(lane);
             for (Vehicle& v : lane.vehicles) {
                 const Leader& leader = leaders[v.index];
-                if (v.index == 0 && leader.id != v.leader_id) {
+                const bool lost_leader = std::exchange(v.lost_leader, false) && !w_.rules.lost_leader_stays_on_radar;
+                if (v.index == 0 && (leader.id != v.leader_id || lost_leader)) {
                     v.is_platoon_leader = true;
                     v.radar.assign(v.radar.size(), {leader.gap_m, v.speed_mps - leader.speed_mps});
                 }

@@ -1,5 +1,11 @@
 // Property tests: in random scenarios, core/sim and the reference engine make the same decisions, and their positions
 // and speeds agree within rounding. On a difference, the smallest scenario found is printed.
+//
+// Not covered: teleports, the pass-blocker rule, missed turns of trips, signal controllers that react to traffic,
+// vehicle types of SUMO, vehicles that enter between two intersections, and runs on several threads.
+//
+// Not covered: teleports, the pass-blocker rule, missed turns of trips, signal controllers that react to traffic,
+// vehicle types of SUMO, vehicles that enter between two intersections, and runs on several threads.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -7,6 +13,7 @@
 
 #include "reference/comparison.h"
 #include "reference/plan_draw.h"
+#include "reference/shrink.h"
 
 namespace stopline {
 namespace {
@@ -234,6 +241,16 @@ TEST(ReferenceCase, DeadlocksAtACrossingAgree) {
     EXPECT_GT(comparison.situations.deadlocks, 0);
 }
 
+// Where the movements of a lane diverge, a turning leader hides a slow vehicle on the route of its follower.
+TEST(ReferenceCase, HiddenLeadersAgree) {
+    PlanDraw random(77);
+    random.turns(false);
+    random.turns(false);
+    const Comparison comparison = compare_engines(random.turns(false), kFullTolerance);
+    EXPECT_FALSE(comparison.difference) << comparison.difference->text();
+    EXPECT_GT(comparison.situations.hidden_leaders, 10);
+}
+
 // This test shows the known fault of core/sim that Comparison::has_stale_slot describes. If the test fails because
 // core/sim has no longer this fault, remove the test and the member.
 TEST(KnownFault, TheKeepClearRuleReadsAStaleSlot) {
@@ -277,7 +294,7 @@ Plan queue_with_inflow() {
     return plan;
 }
 
-// These two tests show rules of core/sim that its documents do not state (UndocumentedRules). If a test fails because
+// These tests show rules of core/sim that its documents do not state (UndocumentedRules). If a test fails because
 // core/sim has given up the rule, remove the rule and the test.
 TEST(UndocumentedRule, AnInsertionEndsTheStartMessages) {
     UndocumentedRules rules;
@@ -294,6 +311,15 @@ TEST(UndocumentedRule, ThePowerBoundNeedsAPolicyWithAPowerLimit) {
     plan.components = {{"CTG-Ref", 100.0}};
     UndocumentedRules rules;
     rules.power_bound_needs_power_limit = false;
+    EXPECT_FALSE(compare_engines(plan, kMesoTolerance).difference);
+    EXPECT_TRUE(compare_engines(plan, kMesoTolerance, rules).difference);
+}
+
+TEST(UndocumentedRule, ALostLeaderStaysOnTheRadar) {
+    PlanDraw random(78);
+    const Plan plan = random.lane_changes(true);
+    UndocumentedRules rules;
+    rules.lost_leader_stays_on_radar = false;
     EXPECT_FALSE(compare_engines(plan, kMesoTolerance).difference);
     EXPECT_TRUE(compare_engines(plan, kMesoTolerance, rules).difference);
 }

@@ -59,7 +59,8 @@ struct Vehicle {
     double speed_mps = 0.0;
     double acceleration_mps2 = 0.0;  // in the previous step
     bool is_platoon_leader = true;
-    int leader_id = -1;  // the vehicle that this vehicle follows; -1: none
+    int leader_id = -1;        // the vehicle that this vehicle follows; -1: none
+    bool lost_leader = false;  // the leader has just changed lanes or has been left by a lane change
 
     // Route.
     int route = -1;
@@ -242,6 +243,9 @@ struct UndocumentedRules {
     // If the speed limit is above the calibrated limit, the acceleration has a lower bound. For followers this bound
     // applies only if at least one policy has a constant-power speed below 100 m/s.
     bool power_bound_needs_power_limit = true;
+    // A vehicle whose leader has left it by a lane change, and that has no other leader, stays a follower and keeps the
+    // radar history of the old leader. In all other cases, it would become a platoon leader with a new history.
+    bool lost_leader_stays_on_radar = true;
 };
 
 // Random noise that is added to each speed (mesoscale mode), or to each acceleration and request (full dynamics). It

@@ -226,6 +226,8 @@ private:
     static void reset_leader(Lane& on, std::size_t index) {
         if (index >= on.vehicles.size()) return;
         Vehicle& v = on.vehicles[index];
+        v.lost_leader = index == 0 && v.leader_id >= 0;
+        v.lost_leader = index == 0 && v.leader_id >= 0;
         v.leader_id = index == 0 ? -1 : on.vehicles[index - 1].id;
         if (index == 0) return;
         const Vehicle& ahead = on.vehicles[index - 1];

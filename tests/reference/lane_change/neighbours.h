@@ -23,7 +23,7 @@ struct Neighbours {
 
 class LaneGaps {
 public:
-    LaneGaps(const World& world) : w_(world), perception_(world) {}
+    explicit LaneGaps(const World& world) : w_(world), perception_(world) {}
 
     // Returns the number of vehicles of a lane with their front at `front_m` or further downstream.
     static std::size_t vehicles_ahead(const Lane& on, double front_m) {
