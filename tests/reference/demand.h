@@ -10,7 +10,8 @@
 
 namespace stopline::reference_engine {
 
-// Draws one of several components with given shares for each vehicle of an inlet. The vehicles of an inlet are numbered.
+// Draws one of several components with given shares for each vehicle of an inlet. The vehicles of an inlet are
+// numbered.
 class ShareDraw {
 public:
     ShareDraw(DemandPlan::Pattern pattern, std::uint64_t seed, Purpose purpose)
@@ -271,8 +272,8 @@ public:
         return fewest;
     }
 
-    // Returns the lane changes on `edge` and later edges if the vehicle begins the edge on `lane`. `skips_long`: changes
-    // on a long edge do not count.
+    // Returns the lane changes on `edge` and later edges if the vehicle begins the edge on `lane`. `skips_long`:
+    // changes on a long edge do not count.
     int trip_changes_from(int trip, int edge, int lane, bool skips_long) const {
         constexpr double kLongEdge_m = 300.0;
         if (skips_long && edge >= w_.model.demand.trips[static_cast<std::size_t>(trip)].turn_count) return 0;

@@ -1,4 +1,5 @@
-// The kinds of vehicles of the reference engine. The vehicles with one policy share their vehicle type and their driver.
+// The kinds of vehicles of the reference engine. The vehicles with one policy share their vehicle type and their
+// driver.
 #pragma once
 
 #include <optional>

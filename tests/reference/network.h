@@ -1,5 +1,5 @@
-// The world of the reference engine: lanes with their vehicles, lights, kinds of vehicles, and counters. The phases of a
-// step read and change it.
+// The world of the reference engine: lanes with their vehicles, lights, kinds of vehicles, and counters. The phases of
+// a step read and change it.
 #pragma once
 
 #include <numeric>

@@ -1,5 +1,5 @@
-// Scenarios for the comparison of core/sim with the reference engine. A Plan holds the values that vary. It is converted
-// to YAML text, and the scenario is read from this text. So a test can print the scenario as YAML.
+// Scenarios for the comparison of core/sim with the reference engine. A Plan holds the values that vary. It is
+// converted to YAML text, and the scenario is read from this text. So a test can print the scenario as YAML.
 #pragma once
 
 #include <cstdint>

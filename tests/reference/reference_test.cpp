@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <ostream>
 #include <string>
 
 #include "reference/comparison.h"
@@ -69,6 +70,8 @@ struct Family {
     std::vector<std::pair<std::int64_t Situations::*, std::int64_t>> least = {};
 };
 
+void PrintTo(const Family& family, std::ostream* out) { *out << family.name; }
+
 using S = Situations;
 const std::vector<Family> kFamilies{
     // A straight road with a light.
@@ -98,8 +101,8 @@ const std::vector<Family> kFamilies{
       {&S::entered_late, 60},
       {&S::gear_changes, 150},
       {&S::emergency_brakings, 500}}},
-    // The streets of a crossing have green one after the other. Vehicles of one street start while vehicles of the other
-    // are still inside, and in some scenarios the exit lanes are jammed.
+    // The streets of a crossing have green one after the other. Vehicles of one street start while vehicles of the
+    // other are still inside, and in some scenarios the exit lanes are jammed.
     {"MesoscaleCrossings",
      true,
      [](PlanDraw& random) { return random.crossing(true); },

@@ -1,5 +1,5 @@
-// Vehicles that enter the network in the reference engine: at inlets, and as queues before the first step. The rules are
-// those of the comments in core/sim/insertion/insert_vehicles.cpp.
+// Vehicles that enter the network in the reference engine: at inlets, and as queues before the first step. The rules
+// are those of the comments in core/sim/insertion/insert_vehicles.cpp.
 #pragma once
 
 #include <optional>

@@ -11,8 +11,8 @@ class Deadlocks {
 public:
     Deadlocks(World& world, Resolutions& resolutions) : w_(world), resolutions_(resolutions) {}
 
-    // The candidates of a cycle are the vehicles whose blocker has not reached the conflict area yet. The candidate that
-    // has waited longest proceeds. To be called when all yield stops of the step are known.
+    // The candidates of a cycle are the vehicles whose blocker has not reached the conflict area yet. The candidate
+    // that has waited longest proceeds. To be called when all yield stops of the step are known.
     void resolve() {
         for (const Lane& lane : w_.lanes) {
             for (const YieldStop& stop : lane.yield_stops) {

@@ -1,5 +1,5 @@
-// Gap acceptance of the reference engine: the next vehicle with priority, and the gap that a yielding vehicle needs. The
-// rules are those of the comments in core/sim/junction/arrivals.h and gap_acceptance.h.
+// Gap acceptance of the reference engine: the next vehicle with priority, and the gap that a yielding vehicle needs.
+// The rules are those of the comments in core/sim/junction/arrivals.h and gap_acceptance.h.
 #pragma once
 
 #include "reference/junction/merging.h"
@@ -90,8 +90,8 @@ private:
         return (speed_mps - std::sqrt(speed_mps * speed_mps - 2.0 * b * std::max(distance_m, 0.0))) / b;
     }
 
-    // Returns the time until a vehicle at `front_m` no longer hinders the next vehicle with priority: a crossing vehicle
-    // has left the area, a merging vehicle has reached it and has had a second to speed up.
+    // Returns the time until a vehicle at `front_m` no longer hinders the next vehicle with priority: a crossing
+    // vehicle has left the area, a merging vehicle has reached it and has had a second to speed up.
     double passing_s(const Candidate& c, const Conflict& conflict, double front_m, double speed_mps) const {
         constexpr double kMergingReserve_s = 1.0;
         const bool merges = merging_.is_merge(c.connection, conflict);
@@ -113,8 +113,9 @@ private:
     }
 
     // Returns the earliest arrival of the next vehicle with priority at which the candidate accepts the gap. In
-    // generated networks, the critical gap begins when the candidate reaches its waiting position. In imported networks,
-    // it begins when the previous vehicle with priority has reached the area, and holds for a start from rest.
+    // generated networks, the critical gap begins when the candidate reaches its waiting position. In imported
+    // networks, it begins when the previous vehicle with priority has reached the area, and holds for a start from
+    // rest.
     double needed_s(const Candidate& c, const Conflict& conflict, double wait_m, bool has_begun) const {
         const DriverSettings& driver = w_.driver(*c.vehicle);
         const double speed_mps = c.vehicle->speed_mps;

@@ -187,8 +187,8 @@ private:
         return result;
     }
 
-    // Lets a gain fade, and adds the incentive above the threshold, at most the maximum acceleration. Only the lane that
-    // the vehicle has just left can have a negative gain.
+    // Lets a gain fade, and adds the incentive above the threshold, at most the maximum acceleration. Only the lane
+    // that the vehicle has just left can have a negative gain.
     static void add_gain(const LaneChangeSettings& s, double incentive_mps2, double& gain_mps) {
         const double memory_s = gain_mps < 0.0 ? 30.0 : 10.0;
         const double faded_mps = gain_mps * (1.0 - kDecisionInterval_s / memory_s);
