@@ -116,13 +116,13 @@ private:
         });
     }
 
-    // Compares for each lane whether the keep-clear rule holds a vehicle.
+    // Compares for each lane the vehicle that the keep-clear rule holds.
     void compare_holds() {
         for (const Lane& lane : engine_.lanes()) {
             if (lane.signal_group < 0 || lane.vehicles.empty()) continue;
-            const bool is_held = simulation_.state().stop_lines.held_at_green[at(lane.number)].blocker >= 0;
-            compare("the hold by the keep-clear rule", lane.number, lane.stop_id, is_held ? 1.0 : 0.0,
-                    lane.is_held ? 1.0 : 0.0, 0.0);
+            const int simulated = simulation_.state().stop_lines.lines[at(lane.number)].keep_clear_vehicle;
+            const int reference = lane.is_held ? lane.stop_id : -1;
+            compare("the vehicle held by the keep-clear rule", lane.number, reference, simulated, reference, 0.0);
         }
     }
 
