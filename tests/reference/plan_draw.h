@@ -147,6 +147,10 @@ public:
         Plan p = turns(is_mesoscale);
         p.roads = Plan::Roads::grid;
         p.spacing_m = number(12, 30) * 10.0;
+        // The road between the intersections must suffice to stop.
+        p.limit_kmh = std::min(p.limit_kmh, 50.0);
+        p.entry_kmh = std::min(p.entry_kmh, p.limit_kmh);
+        p.decision_mps2 = std::max(p.decision_mps2, 2.5);
         p.exit_limit_kmh = 0.0;
         if (p.demand == "rate") p.demand = "saturated";
         return p;
