@@ -2,9 +2,8 @@
 // comments in core/driver/acceleration_laws.h.
 #pragma once
 
-#include <optional>
-
 #include "base/speed_thresholds.h"
+#include "reference/human.h"
 #include "reference/powertrain.h"
 #include "reference/sensors.h"
 #include "reference/world.h"
@@ -162,13 +161,39 @@ struct DriverRequest {
     bool is_slowing_down = false;
 };
 
-// Returns the requested acceleration: the lowest acceleration of all laws, with limited jerk. `stop_m`: position where
-// the vehicle must stop. Clears Vehicle::is_platoon_leader when the acceleration for following no longer exceeds that
-// of free driving.
-inline DriverRequest plan_request(const DriverModel& d, const GapPolicy& policy, const Lane& lane, const View& p,
-                                  std::optional<double> stop_m, double dt, Vehicle& v) {
+// Returns the braking for a hidden leader: a vehicle beyond the leader that stays on the own route.
+inline double hidden_leader_mps2(const DriverModel& d, double speed_mps, double standstill_gap_m, double growth_m,
+                                 const View& p) {
+    return std::min({emergency_mps2(d.settings.cacc, speed_mps, p),
+                     keep_room_mps2(d.settings.cacc, speed_mps, growth_m, p),
+                     stop_behind_mps2(d, speed_mps, standstill_gap_m, p)});
+}
+
+// Returns the request for the lowest acceleration of all laws, with limited jerk.
+inline DriverRequest smooth_request(const CaccSettings& c, double lowest_mps2, double dt, const Vehicle& v) {
     constexpr double kStart_mps2 = 0.01;
     constexpr double kHold_mps2 = -0.3;
+    const bool is_held = v.speed_mps <= kBrakeHoldSpeed_mps;
+    const double smooth_mps2 =
+        std::clamp(lowest_mps2, v.request_mps2 - c.jerk_down_mps3 * dt, v.request_mps2 + c.jerk_up_mps3 * dt);
+    DriverRequest result;
+    result.request_mps2 = std::max(smooth_mps2, is_held ? 0.0 : -c.deceleration_emergency_mps2);
+    result.mean_mps2 =
+        is_held && result.request_mps2 <= kStart_mps2 ? kHold_mps2 : 0.5 * (v.request_mps2 + result.request_mps2);
+    return result;
+}
+
+// The conditions on a lane that the driver obeys besides its leader.
+struct RoadView {
+    double limit_mps = 0.0;
+    double to_next_limit_m = 0.0;   // distance to the place where Vehicle::end_speed_mps applies
+    double demand_mps2 = kNoLimit;  // highest acceleration that stops, gaps and hidden leaders allow
+};
+
+// Returns the requested acceleration of an automated vehicle. Clears Vehicle::is_platoon_leader when the acceleration
+// for following no longer exceeds that of free driving.
+inline DriverRequest plan_request(const DriverModel& d, const GapPolicy& policy, const RoadView& road, const View& p,
+                                  double dt, Vehicle& v) {
     const CaccSettings& c = d.settings.cacc;
     const double speed_mps = v.speed_mps;
     // The request takes effect at the end of the step. So the desired gap is that of the speed at the end of the step.
@@ -178,32 +203,55 @@ inline DriverRequest plan_request(const DriverModel& d, const GapPolicy& policy,
 
     const bool sees_leader = p.gap_m < c.radar_range_m;
     const double free_mps2 =
-        free_acceleration_mps2(d, speed_mps, sees_leader ? c.catch_up_factor * lane.limit_mps : lane.limit_mps);
+        free_acceleration_mps2(d, speed_mps, sees_leader ? c.catch_up_factor * road.limit_mps : road.limit_mps);
     const double follow = follow_mps2(c, v, desired, growth_m, p, dt);
     v.is_platoon_leader = v.is_platoon_leader && follow > free_mps2;
     const double catch_up_mps2 =
-        std::min(d.settings.free_drive.speed_gain_1ps * (c.catch_up_factor * lane.limit_mps - speed_mps),
+        std::min(d.settings.free_drive.speed_gain_1ps * (c.catch_up_factor * road.limit_mps - speed_mps),
                  c.acceleration_max_mps2);
 
-    DriverRequest result;
     double lowest_mps2 = std::min(v.is_platoon_leader ? free_mps2 : catch_up_mps2, follow);
-    if (lane.end_speed_mps > 0.0) {
-        const double slow_mps2 = slow_down_mps2(d, speed_mps, lane.end_speed_mps, lane.length_m - v.position_m);
-        result.is_slowing_down = slow_mps2 < lowest_mps2;
-        lowest_mps2 = std::min(lowest_mps2, slow_mps2);
-    }
+    double slow_mps2 = kNoLimit;
+    if (v.end_speed_mps < kNoLimit) slow_mps2 = slow_down_mps2(d, speed_mps, v.end_speed_mps, road.to_next_limit_m);
+    const bool is_slowing_down = slow_mps2 < lowest_mps2;
+    lowest_mps2 = std::min(lowest_mps2, slow_mps2);
     const double urgent_mps2 = std::min(emergency_mps2(c, speed_mps, p), keep_room_mps2(c, speed_mps, growth_m, p));
-    result.is_emergency = urgent_mps2 < lowest_mps2;
-    lowest_mps2 = std::min({lowest_mps2, urgent_mps2, stop_behind_mps2(d, speed_mps, standstill_gap_m, p)});
-    if (stop_m) lowest_mps2 = std::min(lowest_mps2, stop_at_line_mps2(d, speed_mps, *stop_m - v.position_m));
-
-    const bool is_held = speed_mps <= kBrakeHoldSpeed_mps;
-    const double smooth_mps2 =
-        std::clamp(lowest_mps2, v.request_mps2 - c.jerk_down_mps3 * dt, v.request_mps2 + c.jerk_up_mps3 * dt);
-    result.request_mps2 = std::max(smooth_mps2, is_held ? 0.0 : -c.deceleration_emergency_mps2);
-    result.mean_mps2 =
-        is_held && result.request_mps2 <= kStart_mps2 ? kHold_mps2 : 0.5 * (v.request_mps2 + result.request_mps2);
+    const bool is_emergency = urgent_mps2 < lowest_mps2;
+    lowest_mps2 =
+        std::min({lowest_mps2, urgent_mps2, stop_behind_mps2(d, speed_mps, standstill_gap_m, p), road.demand_mps2});
+    DriverRequest result = smooth_request(c, lowest_mps2, dt, v);
+    result.is_emergency = is_emergency;
+    result.is_slowing_down = is_slowing_down;
     return result;
+}
+
+// Returns the requested acceleration of a human driver: the intelligent driver model for the leader that the driver
+// sees (`seen`), without V2V. A platoon leader starts with the start-up profile. `exact`: the radar view, for the
+// braking that avoids a collision.
+inline DriverRequest plan_human_request(const DriverModel& d, const GapPolicy& policy, const RoadView& road,
+                                        const View& exact, const HumanView& seen, double dt, Vehicle& v) {
+    const CaccSettings& c = d.settings.cacc;
+    const IdmSettings& idm = d.settings.human.idm;
+    const double speed_mps = v.speed_mps;
+    const double standstill_gap_m = policy.settings.standstill_gap_m;
+    const double growth_m =
+        std::max(law_gap(policy, std::max(speed_mps + v.acceleration_mps2 * dt, 0.0)).gap_m - standstill_gap_m, 0.0);
+    const double interaction =
+        seen.gap_m > c.radar_range_m ? 0.0 : idm_interaction(idm, speed_mps, seen, standstill_gap_m, growth_m);
+    const double follow = interaction > 0.0 ? idm.acceleration_mps2 * (1.0 - interaction) : kNoLimit;
+    const double free_mps2 = free_acceleration_mps2(d, speed_mps, road.limit_mps);
+    v.is_platoon_leader = v.is_platoon_leader && follow > free_mps2;
+    double lowest_mps2 = v.is_platoon_leader
+                             ? free_mps2
+                             : idm.acceleration_mps2 * (1.0 - idm_free_term(speed_mps, road.limit_mps) - interaction);
+    if (v.end_speed_mps < kNoLimit)
+        lowest_mps2 = std::min(lowest_mps2, slow_down_mps2(d, speed_mps, v.end_speed_mps, road.to_next_limit_m));
+    View leader;  // what the driver sees, without V2V
+    leader.gap_m = seen.gap_m;
+    leader.closing_mps = seen.closing_mps;
+    const double evasive_mps2 = std::min(emergency_mps2(c, speed_mps, exact), keep_room_mps2(c, speed_mps, 0.0, exact));
+    lowest_mps2 = std::min({lowest_mps2, emergency_mps2(c, speed_mps, leader), evasive_mps2, road.demand_mps2});
+    return smooth_request(c, lowest_mps2, dt, v);
 }
 
 }  // namespace stopline::reference_engine

@@ -1,17 +1,16 @@
-// The reference engine: one run of a scenario.
+// The reference engine: one run of a scenario. A step is a list of phases, in the order of core/README.md.
 #pragma once
 
+#include <string>
 #include <utility>
 
-#include "reference/demand.h"
-#include "reference/driver.h"
-#include "reference/junction.h"
-#include "reference/meso.h"
-#include "reference/powertrain.h"
+#include "reference/insertion/trips.h"
+#include "reference/junction/right_of_way.h"
+#include "reference/junction/stop_lines.h"
+#include "reference/lane_change/gap_search.h"
+#include "reference/lane_change/lane_change.h"
 #include "reference/queue.h"
 #include "reference/sensors.h"
-#include "reference/world.h"
-#include "scenario/make_network.h"
 
 namespace stopline::reference_engine {
 
@@ -23,390 +22,312 @@ public:
     Engine& operator=(Engine&&) = delete;
     ~Engine() = default;
 
-    // Prepares a run of the first population of the scenario.
-    Engine(const Scenario& scenario, const Road& road, const UndocumentedRules& rules = {}, const Noise& noise = {})
-        : scenario_(scenario),
-          rules_(rules),
-          noise_(noise),
-          length_m_(stored(scenario.vehicle.length_m)),
-          step_s_(scenario.is_meso() ? scenario.meso.step_s : scenario.step_s),
-          draw_(scenario.populations.front(), scenario.seed),
-          vehicle_(make_vehicle_model(scenario.vehicle)),
-          junction_(scenario, policies_, length_m_) {
-        make_policies();
-        make_lanes(road);
-        if (scenario.network.kind == "intersection") {
-            signals_ = make_crossing_signals(scenario.signal, step_s_);
-        } else {
-            signals_ = {make_signal(scenario.signal, step_s_)};
-        }
-        const double start_delay_s = scenario.is_meso() ? scenario.meso.start_delay_s : 0.0;
-        hesitation_ticks_ = ticks_in(scenario.driver.free_drive.hesitation_s + start_delay_s, step_s_);
-        if (scenario.is_meso()) {
-            make_meso();
-        } else {
-            driver_ = make_driver_model(scenario.driver, vehicle_);
-            // The radar delay includes the step between the computation of a request and its effect. So the
-            // controller uses data that are one step younger than the delay.
-            radar_age_ = std::max(scenario.driver.cacc.radar_delay_s - step_s_, 0.0) / step_s_;
-            v2v_age_ = scenario.driver.cacc.v2v_delay_s / step_s_;
-        }
-        if (scenario.demand.start == "queued") insert_queues();
+    // Prepares a run of the first population of the scenario. `model`: compiled from the scenario.
+    Engine(const Scenario& scenario, const Model& model, const UndocumentedRules& rules = {}, const Noise& noise = {})
+        : noise_(noise),
+          w_(scenario, model, rules),
+          // The radar delay includes the step between the computation of a request and its effect. So the controller
+          // uses data that are one step younger than the delay.
+          radar_age_(std::max(w_.common_driver().cacc.radar_delay_s - w_.step_s, 0.0) / w_.step_s),
+          v2v_age_(w_.common_driver().cacc.v2v_delay_s / w_.step_s),
+          routes_(w_),
+          entrance_(w_, w_.is_meso ? 0 : radar_rows(), w_.is_meso ? 0 : static_cast<std::size_t>(v2v_age_) + 3),
+          inlets_(w_, routes_, entrance_),
+          trips_(w_, routes_, entrance_),
+          perception_(w_),
+          stop_lines_(w_),
+          right_of_way_(w_),
+          gap_search_(w_, routes_),
+          lane_changes_(w_, routes_) {
+        if (model.demand.starts_queued) inlets_.insert_queues();
     }
 
-    const std::vector<Lane>& lanes() const { return lanes_; }
-    const std::vector<LanePassage>& passages() const { return passages_; }
-    const Situations& situations() const { return situations_; }
-    std::int64_t tick() const { return tick_; }
-    double time_s() const { return static_cast<double>(tick_) * step_s_; }
+    const std::vector<Lane>& lanes() const { return w_.lanes; }
+    const std::vector<LanePassage>& passages() const { return w_.passages; }
+    const Situations& situations() const { return w_.situations; }
+    std::int64_t tick() const { return w_.tick; }
+    double time_s() const { return w_.time_s(); }
+    // Returns the first event that the engine does not cover: after it, the run is meaningless. Empty: none.
+    const std::string& uncovered_event() const { return uncovered_event_; }
 
     void step() {
-        std::vector<std::vector<Leader>> leaders;
-        for (std::size_t lane = 0; lane < lanes_.size(); ++lane) leaders.push_back(find_leaders(lane));
-        junction_.find_occupants(lanes_, signals_, tick_);
-        for (Lane& lane : lanes_) {
-            if (lane.signal < 0) continue;
-            const bool is_open = decide_stop_line(scenario_, signal_of(lane), hesitation_ticks_, tick_, lane);
-            if (is_open) junction_.hold_for_keep_clear(lanes_, signals_, tick_, lane);
-        }
-        junction_.decide(lanes_, leaders, tick_);
-        situations_.held_at_green = junction_.holds();
-        situations_.yielded = junction_.waits();
-        situations_.deadlocks = junction_.resolved();
-        scenario_.is_meso() ? move_meso(leaders) : move_full(leaders);
-        for (std::size_t lane = 0; lane < lanes_.size(); ++lane) transfer(lane);
-        for (std::size_t inlet = 0; inlet < entries_.size(); ++inlet) insert_next(inlet);
-        ++tick_;
+        w_.number_vehicles();
+        right_of_way_.update_phases();
+        find_leaders();
+        OccupantSearch(w_).search();
+        stop_lines_.decide();
+        right_of_way_.decide();
+        gap_search_.search();
+        w_.is_meso ? move_meso() : move_full();
+        transfer();
+        inlets_.insert_due();
+        trips_.insert_due();
+        lane_changes_.change_lanes();
+        ++w_.tick;
+        w_.update_lights();
     }
 
 private:
-    void make_policies() {
-        for (const auto& component : scenario_.populations.front().components) {
-            const auto is_named = [&](const GapPolicySettings& policy) { return policy.name == component.policy; };
-            policies_.push_back(
-                make_gap_policy(*std::find_if(scenario_.policies.begin(), scenario_.policies.end(), is_named)));
+    std::size_t radar_rows() const {
+        double oldest_steps = radar_age_;
+        for (const VehicleKind& kind : w_.kinds) {
+            const HumanSettings& human = kind.settings().human;
+            if (kind.is_human)
+                oldest_steps = std::max(oldest_steps, (human.reaction_s + human.reaction_spread_s) / w_.step_s);
         }
+        return static_cast<std::size_t>(oldest_steps) + 3;
     }
 
-    void make_lanes(const Road& road) {
-        const LaneGraph graph = make_network(scenario_.network);
-        entries_ = graph.entries;
-        for (std::size_t number = 0; number < graph.lanes.size(); ++number) {
-            const stopline::Lane& from = graph.lanes[number];
-            Lane lane;
-            lane.length_m = from.length_m;
-            lane.limit_mps = from.limit_mps;
-            lane.sine = from.gradient / std::sqrt(1.0 + from.gradient * from.gradient);
-            lane.signal = from.signal_group;
-            lane.origin = from.origin;
-            if (!from.next.empty()) lane.next = from.next.front();
-            if (lane.next < 0 && road.exit_limit_mps > 0.0) lane.limit_mps = road.exit_limit_mps;
-            lane.conflicts = graph.conflicts_of(static_cast<int>(number));
-            lanes_.push_back(lane);
-        }
-        for (Lane& lane : lanes_) {
-            if (lane.next < 0) continue;
-            const double next_mps = entry_speed_mps(lanes_[static_cast<std::size_t>(lane.next)]);
-            if (next_mps < lane.limit_mps) lane.end_speed_mps = stored(next_mps);
-        }
-    }
-
-    // Returns the highest speed at the start of a lane from which a vehicle can still brake to all lower limits ahead.
-    double entry_speed_mps(const Lane& lane) const {
-        if (lane.next < 0) return lane.limit_mps;
-        const double end_mps = entry_speed_mps(lanes_[static_cast<std::size_t>(lane.next)]);
-        const double braking_mps2 = scenario_.driver.free_drive.deceleration_mps2;
-        return std::min(lane.limit_mps, std::sqrt(end_mps * end_mps + 2.0 * braking_mps2 * lane.length_m));
-    }
-
-    const Signal& signal_of(const Lane& lane) const { return signals_[static_cast<std::size_t>(lane.signal)]; }
-
-    void make_meso() {
-        meso_.settings = scenario_.meso;
-        meso_.driver = scenario_.driver;
-        meso_.step_s = step_s_;
-        meso_.dawdling_key = dawdle_key(scenario_.seed);
-        bool has_power_limit = false;
-        for (const GapPolicy& policy : policies_) {
-            meso_.policies.push_back(make_meso_policy(scenario_.meso, policy));
-            has_power_limit |= meso_.policies.back().settings.constant_power_speed_mps < 100.0;
-        }
-        meso_.bounds_followers_by_power = has_power_limit || !rules_.power_bound_needs_power_limit;
-        tabulate_profiles(vehicle_, meso_);
-    }
-
-    // Returns the last vehicle of the nearest occupied lane downstream; null if there is no such lane or if it begins
-    // beyond the range of the radar. Sets `start_m` to the start of the occupied lane, measured from the start of
-    // `lane`.
-    const Vehicle* vehicle_beyond(const Lane& lane, double position_m, double& start_m) const {
-        const Lane* here = &lane;
-        start_m = 0.0;
-        while (here->next >= 0) {
-            start_m += here->length_m;
-            if (start_m - position_m > scenario_.driver.cacc.radar_range_m) return nullptr;
-            here = &lanes_[static_cast<std::size_t>(here->next)];
-            if (!here->vehicles.empty()) return &here->vehicles.back();
-        }
-        return nullptr;
-    }
-
-    // Finds and returns the leader of each vehicle of a lane. If the leader of the first vehicle has changed, the first
-    // vehicle counts as a platoon leader from now on, and its radar forgets the old leader.
-    std::vector<Leader> find_leaders(std::size_t number) {
-        Lane& lane = lanes_[number];
-        std::vector<Leader> leaders;
-        for (std::size_t k = 0; k < lane.vehicles.size(); ++k) {
-            Vehicle& v = lane.vehicles[k];
-            double start_m = 0.0;  // start of the leader's lane
-            const Vehicle* const ahead = k > 0 ? &lane.vehicles[k - 1] : vehicle_beyond(lane, v.position_m, start_m);
-            Leader leader;
-            leader.speed_mps = v.speed_mps;
-            leader.gap_m = kNoLeaderGap_m - length_m_ - v.position_m;
-            if (ahead != nullptr) {
-                leader = {ahead->id, start_m + ahead->position_m - length_m_ - v.position_m, ahead->speed_mps,
-                          ahead->acceleration_mps2, ahead};
+    // Finds the leader of each vehicle. If the leader of the first vehicle of a lane has changed, the vehicle counts as
+    // a platoon leader from now on, and its radar forgets the old leader.
+    void find_leaders() {
+        for (Lane& lane : w_.lanes) {
+            const std::vector<Leader>& leaders = w_.leaders[static_cast<std::size_t>(lane.number)] =
+                perception_.leaders_on(lane);
+            for (Vehicle& v : lane.vehicles) {
+                const Leader& leader = leaders[v.index];
+                const bool lost_leader = std::exchange(v.lost_leader, false) && !w_.rules.lost_leader_stays_on_radar;
+                if (v.index == 0 && (leader.id != v.leader_id || lost_leader)) {
+                    v.is_platoon_leader = true;
+                    v.radar.assign(v.radar.size(), {leader.gap_m, v.speed_mps - leader.speed_mps});
+                }
+                v.leader_id = leader.id;
             }
-            if (k == 0 && leader.id != v.leader_id) {
-                v.is_platoon_leader = true;
-                v.radar.assign(v.radar.size(), {leader.gap_m, v.speed_mps - leader.speed_mps});
-            }
-            v.leader_id = leader.id;
-            leaders.push_back(leader);
         }
-        return leaders;
     }
 
-    // Returns the nearest position where a vehicle must stop in this step; empty if it need not stop.
-    std::optional<double> stop_position_m(const Lane& lane, std::size_t k) const {
-        const auto index = static_cast<std::ptrdiff_t>(k);
-        std::optional<double> position_m;
-        if (lane.stop_index == index) position_m = lane.length_m - scenario_.driver.stop.margin_m;
-        for (const YieldPlace& place : lane.yield_stops) {
-            if (place.index == index) position_m = std::min(position_m.value_or(place.position_m), place.position_m);
+    // Calls act(position) for each position where a vehicle must stop in this step.
+    template <class Act>
+    void for_each_stop(const Lane& lane, const Vehicle& v, Act act) const {
+        if (lane.stop_index == static_cast<std::ptrdiff_t>(v.index)) act(lane.stop_line_m - w_.driver(v).stop.margin_m);
+        for (const YieldStop& stop : lane.yield_stops) {
+            if (stop.index == v.index) act(stop.position_m);
         }
-        return position_m;
+    }
+
+    // Mesoscale mode: returns the highest speed of the next step that limits, stops and gaps allow.
+    double highest_meso_mps(const Lane& lane, const Vehicle& v, const Leader& leader) const {
+        constexpr double kAligning_mps2 = 2.0;
+        double highest_mps = highest_speed_mps(w_.meso, lane, v, leader.id >= 0);
+        for_each_stop(lane, v, [&](double position_m) {
+            highest_mps = std::min(highest_mps, stopping_speed_mps(w_.meso, v, position_m));
+        });
+        for (const Alignment& alignment : lane.alignments) {
+            if (alignment.index == v.index)
+                highest_mps =
+                    std::min(highest_mps, std::max(alignment.target_mps, v.speed_mps - kAligning_mps2 * w_.step_s));
+        }
+        return highest_mps;
+    }
+
+    double next_meso_mps(const Lane& lane, Vehicle& v, const Leader& leader) {
+        const double highest_mps = highest_meso_mps(lane, v, leader);
+        const bool leads = v.is_platoon_leader && has_platoon_leaders(w_.meso);
+        double next_mps = leads ? next_platoon_leader_speed_mps(w_.meso, lane, v, leader, highest_mps, w_.tick)
+                                : next_follower_speed_mps(w_.meso, lane, v, leader, highest_mps, w_.tick);
+        const std::vector<double>& fastest = w_.meso.policies[static_cast<std::size_t>(v.policy)].fastest_mps2;
+        if (!fastest.empty()) {
+            const double bins_per_mps = static_cast<double>(fastest.size()) / kFastestTop_mps;
+            next_mps = std::min(next_mps, v.speed_mps + bin_value(fastest, bins_per_mps, v.speed_mps) * w_.step_s);
+        }
+        w_.situations.became_follower += leads && !v.is_platoon_leader ? 1 : 0;
+        w_.situations.start_messages += v.has_start_message ? 1 : 0;
+        w_.situations.slowed_before_limit += next_mps == speed_before_lower_limit_mps(w_.meso, lane, v) ? 1 : 0;
+        return next_mps;
     }
 
     // Mesoscale mode: computes all speeds from the state at the start of the step, then moves all vehicles.
-    void move_meso(const std::vector<std::vector<Leader>>& leaders) {
-        for (Lane& lane : lanes_) {
+    void move_meso() {
+        for (Lane& lane : w_.lanes) {
             for (Vehicle& v : lane.vehicles) v.has_start_message = false;
-            update_standing_queue(lane, tick_);
-            relay_start_message(meso_, length_m_, lane);
+            update_standing_queue(lane, w_.tick);
+            relay_start_message(w_.meso, lane);
         }
         std::vector<std::pair<Vehicle*, double>> next_speeds;
-        for (std::size_t number = 0; number < lanes_.size(); ++number) {
-            Lane& lane = lanes_[number];
-            for (std::size_t k = 0; k < lane.vehicles.size(); ++k) {
-                Vehicle& v = lane.vehicles[k];
-                Leader leader = leaders[number][k];
+        for (Lane& lane : w_.lanes) {
+            for (Vehicle& v : lane.vehicles) {
+                Leader leader = w_.leader_of(v);
                 // A start message changes the acceleration of its receiver in this step. Only a follower on the same
                 // lane uses the changed value.
-                if (k > 0) leader.acceleration_mps2 = leader.vehicle->acceleration_mps2;
+                if (v.index > 0) leader.acceleration_mps2 = leader.vehicle->acceleration_mps2;
                 leader.acceleration_mps2 = std::max(leader.acceleration_mps2, 0.0);
-                const double highest_mps = highest_speed_mps(meso_, lane, v, stop_position_m(lane, k), leader.id >= 0);
-                const bool leads = v.is_platoon_leader && has_platoon_leaders(meso_);
-                const double next_mps = leads ? next_platoon_leader_speed_mps(meso_, lane, v, leader, highest_mps)
-                                              : next_follower_speed_mps(meso_, lane, v, leader, highest_mps, tick_);
-                situations_.became_follower += leads && !v.is_platoon_leader ? 1 : 0;
-                situations_.start_messages += v.has_start_message ? 1 : 0;
-                situations_.slowed_before_limit += next_mps == speed_before_lower_limit_mps(meso_, lane, v) ? 1 : 0;
-                next_speeds.emplace_back(&v, next_mps);
+                next_speeds.emplace_back(&v, next_meso_mps(lane, v, leader));
             }
         }
         for (const auto& [v, next_mps] : next_speeds) {
             count_stops_and_starts(*v, next_mps);
             const double noisy_mps = next_mps > 0.0 ? next_mps + noise_.draw() : 0.0;
-            v->acceleration_mps2 = stored((noisy_mps - v->speed_mps) / step_s_);
+            v->acceleration_mps2 = stored((noisy_mps - v->speed_mps) / w_.step_s);
             v->speed_mps = noisy_mps;
-            v->position_m += noisy_mps * step_s_;
+            advance(*v, noisy_mps * w_.step_s);
         }
     }
 
-    // Full dynamics: computes all views and requests from the state at the start of the step, then moves all vehicles.
-    void move_full(const std::vector<std::vector<Leader>>& leaders) {
+    // Full dynamics: returns the conditions that the driver obeys besides its leader.
+    RoadView road_view(const Lane& lane, const Vehicle& v, double hidden_leader_mps2) {
+        constexpr double kTimeToTarget_s = 1.0;
+        constexpr double kAligning_mps2 = 2.0;
+        const DriverModel& driver = w_.kind(v).driver;
+        RoadView road{std::min(lane.limit_mps, w_.maximum_speed_mps(v.policy)), lane.next_limit_m - v.position_m,
+                      hidden_leader_mps2};
+        w_.situations.hidden_leaders += hidden_leader_mps2 < kNoLimit ? 1 : 0;
+        const auto add = [&](double demand_mps2) { road.demand_mps2 = std::min(road.demand_mps2, demand_mps2); };
+        for_each_stop(lane, v, [&](double position_m) {
+            add(stop_at_line_mps2(driver, v.speed_mps, position_m - v.position_m));
+        });
+        for (const Alignment& alignment : lane.alignments) {
+            if (alignment.index == v.index)
+                add(std::max((alignment.target_mps - v.speed_mps) / kTimeToTarget_s, -kAligning_mps2));
+        }
+        if (w_.model.has_speed_limiters)
+            add(driver.settings.free_drive.speed_gain_1ps * (w_.maximum_speed_mps(v.policy) - v.speed_mps));
+        return road;
+    }
+
+    DriverRequest request_of(const Vehicle& v, const RoadView& road, const Leader& leader, Vehicle& changed) {
+        const VehicleKind& kind = w_.kind(v);
+        const View view = view_of(v, leader, radar_age_, v2v_age_);
+        if (!kind.is_human) return plan_request(kind.driver, kind.policy, road, view, w_.step_s, changed);
+        w_.situations.human_steps += v.speed_mps > 0.0 ? 1 : 0;
+        const HumanSettings& human = kind.settings().human;
+        const DriverRandom random{driver_key(w_.scenario.seed), v.id};
+        const double reaction_s = reaction_time_s(human, random);
+        const auto age = static_cast<std::size_t>(std::max<std::int64_t>(ticks_in(reaction_s, w_.step_s) - 1, 0));
+        const RadarSample& seen = v.radar[age];
+        const HumanView estimate = estimated(human, {seen.gap_m - reaction_s * seen.closing_mps, seen.closing_mps},
+                                             v.speed_mps, random, w_.time_s());
+        View exact = view;
+        exact.acceleration_mps2 = exact.request_mps2 = leader.acceleration_mps2;
+        return plan_human_request(kind.driver, kind.policy, road, exact, estimate, w_.step_s, changed);
+    }
+
+    // Full dynamics: computes all requests from the state at the start of the step, then moves all vehicles.
+    void move_full() {
         std::vector<std::pair<Vehicle*, DriverRequest>> requests;
-        std::vector<double> sines;
-        for (std::size_t number = 0; number < lanes_.size(); ++number) {
-            Lane& lane = lanes_[number];
-            for (std::size_t k = 0; k < lane.vehicles.size(); ++k) {
-                Vehicle& v = lane.vehicles[k];
-                const Leader& leader = leaders[number][k];
+        for (Lane& lane : w_.lanes) {
+            const std::vector<double> hidden_mps2 = perception_.hidden_leader_demands(lane);
+            for (Vehicle& v : lane.vehicles) {
+                const Leader& leader = w_.leader_of(v);
                 v.radar.push_front({leader.gap_m, v.speed_mps - leader.speed_mps});
                 v.radar.pop_back();
-                const View view = view_of(v, leader, radar_age_, v2v_age_);
                 const bool was_leader = v.is_platoon_leader;
-                const bool stops = static_cast<std::ptrdiff_t>(k) == lane.stop_index;
-                const DriverRequest request = plan_request(driver_, policies_[static_cast<std::size_t>(v.policy)], lane,
-                                                           view, stop_position_m(lane, k), step_s_, v);
-                situations_.became_follower += was_leader && !v.is_platoon_leader && !stops ? 1 : 0;
-                situations_.emergency_brakings += request.is_emergency ? 1 : 0;
-                situations_.slowed_before_limit += request.is_slowing_down ? 1 : 0;
+                const bool stops = static_cast<std::ptrdiff_t>(v.index) == lane.stop_index;
+                const DriverRequest request = request_of(v, road_view(lane, v, hidden_mps2[v.index]), leader, v);
+                w_.situations.became_follower += was_leader && !v.is_platoon_leader && !stops ? 1 : 0;
+                w_.situations.emergency_brakings += request.is_emergency ? 1 : 0;
+                w_.situations.slowed_before_limit += request.is_slowing_down ? 1 : 0;
                 requests.emplace_back(&v, request);
-                sines.push_back(lane.sine);
             }
         }
-        for (std::size_t k = 0; k < requests.size(); ++k)
-            drive_vehicle(requests[k].second, sines[k], *requests[k].first);
+        for (const auto& [v, request] : requests) drive_vehicle(request, *v);
     }
 
-    void drive_vehicle(const DriverRequest& request, double sine, Vehicle& v) {
+    void drive_vehicle(const DriverRequest& request, Vehicle& v) {
         const double lag_before_s = v.lag_s;
         const double acceleration_before_mps2 = v.acceleration_mps2;
         const int gear_before = v.gear;
-        const double available = drive(vehicle_, request.mean_mps2, sine, step_s_, v);
-        situations_.gear_changes += v.gear != gear_before ? 1 : 0;
+        const double available = drive(w_.kind(v).vehicle, request.mean_mps2, w_.lane_of(v).sine, w_.step_s, v);
+        w_.situations.gear_changes += v.gear != gear_before ? 1 : 0;
         v.request_mps2 = request.request_mps2 + (request.request_mps2 != 0.0 ? noise_.draw() : 0.0);
         // The message announces the acceleration at the end of this step. The acceleration before is the mean over the
         // previous step, so it belongs to a time 1.5 steps earlier.
         const double announced_mps2 = std::min(request.request_mps2, available);
-        const double share = std::min(1.5 * step_s_ / lag_before_s, 1.0);
+        const double share = std::min(1.5 * w_.step_s / lag_before_s, 1.0);
         v.sent.push_front({acceleration_before_mps2 + (announced_mps2 - acceleration_before_mps2) * share,
                            announced_mps2, 1.0 / lag_before_s});
         v.sent.pop_back();
         if (v.speed_mps > 0.0) v.acceleration_mps2 += noise_.draw();
         const double before_mps = v.speed_mps;
-        const double after_mps = before_mps + v.acceleration_mps2 * step_s_;
+        const double after_mps = before_mps + v.acceleration_mps2 * w_.step_s;
         const double next_mps = after_mps > kSpeedRounding_mps ? after_mps : 0.0;
         count_stops_and_starts(v, next_mps);
         v.speed_mps = next_mps;
-        v.position_m += 0.5 * (before_mps + next_mps) * step_s_;
+        advance(v, 0.5 * (before_mps + next_mps) * w_.step_s);
+    }
+
+    // Moves a vehicle. At a stop line, it enters the intersection.
+    void advance(Vehicle& v, double distance_m) {
+        const Lane& lane = w_.lane_of(v);
+        const bool was_before_line = v.position_m < lane.stop_line_m;
+        v.position_m += distance_m;
+        if (lane.signal_group < 0 || !was_before_line || v.position_m < lane.stop_line_m) return;
+        v.entry_tick = w_.tick;
+        v.line_stop_tick = -1;
+        const Light light = w_.light(w_.group_of(lane, v.next_lane));
+        w_.situations.passed_at_yellow += light == Light::yellow ? 1 : 0;
+        w_.situations.passed_at_red += light == Light::red ? 1 : 0;
     }
 
     void count_stops_and_starts(const Vehicle& v, double next_mps) {
-        const bool stops_at_red = std::any_of(lanes_.begin(), lanes_.end(), [&](const Lane& lane) {
-            return lane.stopping_id == v.id && signal_of(lane).light(tick_) == Light::red;
-        });
-        situations_.stopped_at_red += stops_at_red && v.speed_mps > 0.0 && next_mps == 0.0 ? 1 : 0;
-        situations_.started_in_queue += !v.is_platoon_leader && v.speed_mps == 0.0 && next_mps > 0.0 ? 1 : 0;
+        const Lane& lane = w_.lane_of(v);
+        const bool stops_at_red = lane.signal_group >= 0 && lane.stopping_id == v.id &&
+                                  w_.light(w_.group_of(lane, v.next_lane)) == Light::red;
+        w_.situations.stopped_at_red += stops_at_red && v.speed_mps > 0.0 && next_mps == 0.0 ? 1 : 0;
+        w_.situations.started_in_queue += !v.is_platoon_leader && v.speed_mps == 0.0 && next_mps > 0.0 ? 1 : 0;
+    }
+
+    static bool is_on_last_edge(const World& world, const Vehicle& v) {
+        return v.next_lane < 0 && v.trip >= 0 && world.route_of(v.route).size() == 1;
+    }
+
+    // Returns true if the front of a vehicle has passed the end of its lane, or the stop line where its trip ends.
+    bool has_left(const Lane& lane, const Vehicle& v) const {
+        return v.position_m >= lane.length_m ||
+               (lane.signal_group >= 0 && v.position_m >= lane.stop_line_m && is_on_last_edge(w_, v));
     }
 
     // Moves the vehicles that have reached the end of a lane to the next lane, or out of the network.
-    void transfer(std::size_t number) {
-        Lane& lane = lanes_[number];
-        while (!lane.vehicles.empty() && lane.vehicles.front().position_m >= lane.length_m) {
-            Vehicle v = lane.vehicles.front();
-            lane.vehicles.pop_front();
-            const double before_mps = scenario_.is_meso() ? v.speed_mps : v.speed_mps - v.acceleration_mps2 * step_s_;
-            const double mean_mps = std::max(0.5 * (before_mps + v.speed_mps), 1e-6);
-            const double since_s = std::clamp((v.position_m - lane.length_m) / mean_mps, 0.0, step_s_);
-            const double time_s = static_cast<double>(tick_ + 1) * step_s_ - since_s;
-            passages_.push_back({time_s, v.id, v.policy, static_cast<int>(number)});
-            if (lane.next < 0) {
-                ++situations_.exited;
-                continue;
-            }
-            if (lane.signal >= 0) {
-                v.entry_tick = tick_;
-                situations_.passed_at_yellow += signal_of(lane).light(tick_) == Light::yellow ? 1 : 0;
-                situations_.passed_at_red += signal_of(lane).light(tick_) == Light::red ? 1 : 0;
-            }
-            v.position_m -= lane.length_m;
-            v.is_in_queue = false;
-            lanes_[static_cast<std::size_t>(lane.next)].vehicles.push_back(std::move(v));
+    void transfer() {
+        std::vector<std::size_t> left_lanes;
+        for (const std::size_t number : w_.order) {
+            const Lane& lane = w_.lanes[number];
+            if (!lane.vehicles.empty() && has_left(lane, lane.vehicles.front())) left_lanes.push_back(number);
         }
-    }
-
-    double desired_gap_m(int policy, double speed_mps) const {
-        const auto k = static_cast<std::size_t>(policy);
-        if (!scenario_.is_meso()) return law_gap(policies_[k], speed_mps).gap_m;
-        return meso_.policies[k].equilibrium_gap_m(speed_mps) + meso_.policies[k].extra_gap_m(speed_mps);
-    }
-
-    bool has_more_vehicles(const Lane& lane) const {
-        return scenario_.demand.kind != "queue" || lane.entered < scenario_.demand.vehicles;
-    }
-
-    Lane& entry_lane(std::size_t inlet) { return lanes_[static_cast<std::size_t>(entries_[inlet])]; }
-
-    void insert_next(std::size_t number) {
-        Lane& lane = entry_lane(number);
-        const auto inlet = static_cast<int>(number);
-        const double now_s = static_cast<double>(tick_ + 1) * step_s_;
-        if (!has_more_vehicles(lane) || now_s < next_entry_s(scenario_, lane, inlet)) return;
-        const int policy = draw_.policy_of(inlet, lane.entered);
-        const std::optional<EntryState> entry =
-            entry_state(scenario_, lane, length_m_, [&](double speed_mps) { return desired_gap_m(policy, speed_mps); });
-        if (entry) {
-            insert(lane, policy, *entry);
-            lane.last_entry_s = now_s;
-        } else if (lane.blocked_number != lane.entered) {
-            lane.blocked_number = lane.entered;
-            ++situations_.entered_late;
-        }
-    }
-
-    void insert_queues() {
-        for (std::size_t number = 0; number < entries_.size(); ++number) {
-            Lane& lane = entry_lane(number);
-            double front_m = lane.length_m - scenario_.driver.stop.margin_m;
-            while (front_m >= 0.0 && has_more_vehicles(lane)) {
-                const auto inlet = static_cast<int>(number);
-                insert(lane, draw_.policy_of(inlet, lane.entered), {front_m, 0.0});
-                lane.last_entry_s = step_s_;
-                front_m -= length_m_ + desired_gap_m(draw_.policy_of(inlet, lane.entered), 0.0);
+        for (const std::size_t number : left_lanes) {
+            Lane& lane = w_.lanes[number];
+            while (!lane.vehicles.empty() && has_left(lane, lane.vehicles.front())) {
+                Vehicle v = std::move(lane.vehicles.front());
+                lane.vehicles.pop_front();
+                transfer(lane, std::move(v));
             }
         }
     }
 
-    // Inserts a vehicle behind the last one of a lane.
-    void insert(Lane& lane, int policy, const EntryState& entry) {
-        const Vehicle* ahead = lane.vehicles.empty() ? nullptr : &lane.vehicles.back();
-        Vehicle v;
-        v.id = next_id_++;
-        v.policy = policy;
-        v.position_m = entry.position_m;
-        v.speed_mps = entry.speed_mps;
-        v.gear = cruising_gear_of(vehicle_, v.speed_mps);
-        v.gear_time_s = scenario_.vehicle.minimum_gear_time_s;
-        v.lag_s = vehicle_.lag_unloaded_s.at(0.0);
-        RadarSample radar{kNoLeaderGap_m, 0.0};
-        if (ahead != nullptr) {
-            v.leader_id = ahead->id;
-            radar = {ahead->position_m - length_m_ - v.position_m, v.speed_mps - ahead->speed_mps};
-            // A vehicle of a saturated inflow enters as a platoon member with the motion of its leader.
-            if (scenario_.demand.kind == "saturated" && ahead->speed_mps <= v.speed_mps) copy_motion(*ahead, v);
+    void transfer(Lane& lane, Vehicle v) {
+        if (v.next_lane < 0 && v.trip >= 0 && !is_on_last_edge(w_, v)) uncovered_event_ = "a missed turn";
+        const double before_mps = w_.is_meso ? v.speed_mps : v.speed_mps - v.acceleration_mps2 * w_.step_s;
+        const double mean_mps = std::max(0.5 * (before_mps + v.speed_mps), 1e-6);
+        const double end_m = v.next_lane < 0 && v.trip >= 0 ? lane.stop_line_m : lane.length_m;
+        const double since_s = std::clamp((v.position_m - end_m) / mean_mps, 0.0, w_.step_s);
+        const double time_s = static_cast<double>(w_.tick + 1) * w_.step_s - since_s;
+        w_.passages.push_back({time_s, v.id, v.policy, lane.number});
+        if (v.next_lane < 0) {
+            ++w_.situations.exited;
+            return;
         }
-        v.radar.assign(static_cast<std::size_t>(radar_age_) + 3, radar);
-        v.sent.assign(static_cast<std::size_t>(v2v_age_) + 3, {v.acceleration_mps2, v.request_mps2, 1.0 / v.lag_s});
-        lane.vehicles.push_back(std::move(v));
-        ++lane.entered;
-        if (rules_.insertion_ends_start_messages) lane.disturbed_tick = tick_;
+        Lane& next = w_.lane(v.next_lane);
+        v.position_m -= lane.length_m;
+        v.is_in_queue = false;
+        v.second_previous_lane = std::exchange(v.previous_lane, lane.number);
+        routes_.set_route_index(v, v.route_index + 1);
+        routes_.choose_next_route(next.number, v);
+        next.vehicles.push_back(std::move(v));
     }
 
-    static void copy_motion(const Vehicle& from, Vehicle& to) {
-        to.is_platoon_leader = false;
-        to.acceleration_mps2 = from.acceleration_mps2;
-        to.request_mps2 = from.request_mps2;
-        to.torque_Nm = from.torque_Nm;
-        to.brake_N = from.brake_N;
-        to.gear_time_s = from.gear_time_s;
-        to.lag_s = from.lag_s;
-        to.gear = from.gear;
-    }
-
-    Scenario scenario_;
-    UndocumentedRules rules_;
     Noise noise_;
-    double length_m_;  // of every vehicle
-    double step_s_;
-    std::vector<Signal> signals_;
-    PolicyDraw draw_;
-    VehicleModel vehicle_;
-    std::vector<GapPolicy> policies_;
-    Junction junction_;
-    MesoModel meso_;
-    DriverModel driver_;
-    double radar_age_ = 0.0;  // age of the radar data, in steps
-    double v2v_age_ = 1.0;    // age of the V2V messages, in steps
-    std::int64_t hesitation_ticks_ = 0;
-
-    std::int64_t tick_ = 0;
-    int next_id_ = 0;
-    std::vector<int> entries_;  // lanes where vehicles enter
-    std::vector<Lane> lanes_;
-    std::vector<LanePassage> passages_;
-    Situations situations_;
+    World w_;
+    double radar_age_;  // age of the radar data, in steps
+    double v2v_age_;    // age of the V2V messages, in steps
+    Routes routes_;
+    Entrance entrance_;
+    InletInsertion inlets_;
+    TripInsertion trips_;
+    Perception perception_;
+    StopLines stop_lines_;
+    RightOfWay right_of_way_;
+    GapSearch gap_search_;
+    LaneChanges lane_changes_;
+    std::string uncovered_event_;
 };
 
 }  // namespace stopline::reference_engine

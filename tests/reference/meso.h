@@ -2,23 +2,29 @@
 // core/driver/krauss.h and core/driver/driver_settings.h.
 #pragma once
 
-#include <optional>
-
 #include "base/random.h"
 #include "base/speed_thresholds.h"
+#include "reference/human.h"
 #include "reference/powertrain.h"
 #include "reference/world.h"
 
 namespace stopline::reference_engine {
 
-// The car-following model of a spacing policy.
+// The car-following model of the vehicles with one policy.
 struct MesoPolicy {
     const GapPolicy* policy = nullptr;
+    DriverSettings driver;
+    double maximum_mps = kNoLimit;  // speed limiter of the vehicle
+    // Highest acceleration by speed, in bins; empty: the car-following model alone limits the acceleration.
+    std::vector<double> fastest_mps2;
+    bool is_idm = false;    // true: the intelligent driver model; false: a model of the Krauss family
+    bool is_human = false;  // the intelligent driver model with reaction time and errors
+    IdmSettings idm;
     KraussSettings settings;
     bool constant_distance = false;  // true: equation (1) of the paper; false: Krauss
     double s0_m = 0.0;
     double tau_s = 0.0;
-    double band_m = 0.0;      // s_t of equation (1), 0 for Krauss
+    double band_m = 0.0;      // s_t of equation (1), 0 for the other models
     double below_band = 1.0;  // d of equation (1)
 
     // Returns the gap that the law adds to standstill gap and time gap.
@@ -28,12 +34,15 @@ struct MesoPolicy {
                                           : 0.0;
     }
     double equilibrium_gap_m(double speed_mps) const { return s0_m + band_m + tau_s * speed_mps; }
+    // Returns the deceleration that the model expects, and the reaction time of a braking before a stop line.
+    double braking_mps2() const { return is_idm ? idm.deceleration_mps2 : settings.deceleration_mps2; }
+    double braking_reaction_s() const { return is_idm ? 0.5 : tau_s; }
 };
 
 // All constants of the mesoscale mode.
 struct MesoModel {
     MesoSettings settings;
-    DriverSettings driver;
+    DriverSettings driver;  // that of the first policy
     std::vector<MesoPolicy> policies;
     std::vector<double> leader_bins_mps2;  // acceleration of platoon leaders by speed; empty: no profile
     double leader_bins_per_mps = 0.0;
@@ -41,14 +50,29 @@ struct MesoModel {
     double power_bins_per_mps = 0.0;
     double step_s = 0.0;
     std::uint64_t dawdling_key = 0;
+    std::uint64_t driver_key = 0;
     bool bounds_followers_by_power = true;
+    double hardest_mps2 = kNoLimit;  // highest deceleration behind a leader
 
-    double free_limit_mps(const Lane& lane) const { return settings.speed_factor * lane.limit_mps; }
+    double free_limit_mps(const Lane& lane, const Vehicle& v) const {
+        const double maximum_mps = policies[static_cast<std::size_t>(v.policy)].maximum_mps;
+        return std::min(settings.speed_factor * lane.limit_mps, maximum_mps);
+    }
 };
+
+inline constexpr double kFastestTop_mps = 40.0;  // highest speed of MesoPolicy::fastest_mps2
 
 inline MesoPolicy make_meso_policy(const MesoSettings& settings, const GapPolicy& policy) {
     MesoPolicy result;
     result.policy = &policy;
+    result.is_human = policy.meso.family == kHumanFamily;
+    result.is_idm = result.is_human || policy.meso.family == "idm";
+    if (result.is_idm) {
+        result.idm = settings.idm;
+        result.s0_m = policy.meso.standstill_gap_m;
+        result.tau_s = policy.meso.time_gap_s;
+        return result;
+    }
     result.constant_distance = policy.meso.family == kConstantDistanceFamily;
     result.settings = result.constant_distance ? settings.constant_distance : settings.constant_time;
     result.s0_m =
@@ -109,10 +133,10 @@ inline double snapped(double speed_mps) { return speed_mps < kMesoStopSpeed_mps 
 // Returns the highest speed of the next step before a lower speed limit; infinity if no lower limit is ahead. The
 // vehicle follows the braking curve v^2 = v_end^2 + 2 b distance.
 inline double speed_before_lower_limit_mps(const MesoModel& m, const Lane& lane, const Vehicle& v) {
-    if (lane.end_speed_mps <= 0.0) return std::numeric_limits<double>::infinity();
+    if (v.end_speed_mps == kNoLimit) return kNoLimit;
     const double b = m.driver.free_drive.deceleration_mps2;
-    const double distance_m = std::max(lane.length_m - v.position_m, 0.0);
-    const double allowed_mps = std::sqrt(lane.end_speed_mps * lane.end_speed_mps + 2.0 * b * distance_m);
+    const double distance_m = std::max(lane.next_limit_m - v.position_m, 0.0);
+    const double allowed_mps = std::sqrt(v.end_speed_mps * v.end_speed_mps + 2.0 * b * distance_m);
     const double share = std::min(m.settings.turn_gain_1ps * m.step_s, 1.0);
     double next_mps = allowed_mps;
     if (share < 1.0) {
@@ -125,21 +149,19 @@ inline double speed_before_lower_limit_mps(const MesoModel& m, const Lane& lane,
 // Returns the highest speed of the next step for a vehicle that must stop at a position of its lane.
 inline double stopping_speed_mps(const MesoModel& m, const Vehicle& v, double position_m) {
     const MesoPolicy& p = m.policies[static_cast<std::size_t>(v.policy)];
-    const double b = std::min(p.settings.deceleration_mps2, m.driver.stop.deceleration_mps2);
-    const double stop_mps = krauss_speed_mps(b, p.tau_s, std::max(position_m - v.position_m, 0.0), 0.0);
-    return std::max(stop_mps, v.speed_mps - m.driver.cacc.deceleration_emergency_mps2 * m.step_s);
+    const double b = std::min(p.braking_mps2(), p.driver.stop.deceleration_mps2);
+    const double stop_mps = krauss_speed_mps(b, p.braking_reaction_s(), std::max(position_m - v.position_m, 0.0), 0.0);
+    return std::max(stop_mps, v.speed_mps - p.driver.cacc.deceleration_emergency_mps2 * m.step_s);
 }
 
-// Returns the highest speed of the next step that the speed limits and a stop at `stop_m` allow. For a vehicle without
-// leader, the law of free driving limits the speed, too.
-inline double highest_speed_mps(const MesoModel& m, const Lane& lane, const Vehicle& v, std::optional<double> stop_m,
-                                bool has_leader) {
-    const double limit_mps = m.free_limit_mps(lane);
+// Returns the highest speed of the next step that the speed limits allow. For a vehicle without leader, the law of free
+// driving limits the speed, too.
+inline double highest_speed_mps(const MesoModel& m, const Lane& lane, const Vehicle& v, bool has_leader) {
+    const double limit_mps = m.free_limit_mps(lane, v);
     const double share = std::min(m.settings.speed_gain_1ps * m.step_s, 1.0);
     const double emergency_mps = m.driver.cacc.deceleration_emergency_mps2 * m.step_s;
     double highest_mps = v.speed_mps + share * (limit_mps - v.speed_mps);
     highest_mps = std::max(std::min(highest_mps, limit_mps), v.speed_mps - emergency_mps);
-    if (stop_m) highest_mps = std::min(highest_mps, stopping_speed_mps(m, v, *stop_m));
     if (!has_leader) {
         const double target_mps = m.settings.leader_speed_share * limit_mps;
         const double slowing_mps = v.speed_mps - m.driver.free_drive.deceleration_mps2 * m.step_s;
@@ -152,20 +174,39 @@ inline double highest_speed_mps(const MesoModel& m, const Lane& lane, const Vehi
 }
 
 // Returns the lower bound of the acceleration if the speed limit is above the calibrated limit; else 0.
-inline double power_bound_mps2(const MesoModel& m, const Lane& lane, double speed_mps) {
+inline double power_bound_mps2(const MesoModel& m, const Lane& lane, const Vehicle& v) {
     constexpr double kRounding = 1.001;
     const double calibrated_mps = kRounding * m.settings.speed_factor * m.settings.calibrated_speed_limit_mps;
-    if (m.free_limit_mps(lane) <= calibrated_mps) return 0.0;
-    return bin_value(m.power_bins_mps2, m.power_bins_per_mps, speed_mps);
+    if (m.free_limit_mps(lane, v) <= calibrated_mps) return 0.0;
+    return bin_value(m.power_bins_mps2, m.power_bins_per_mps, v.speed_mps);
 }
 
 inline bool has_platoon_leaders(const MesoModel& m) {
     return m.settings.leader_mps2 > 0.0 || !m.leader_bins_mps2.empty();
 }
 
-// Returns the next speed of a follower. Without platoon leaders, all vehicles are followers.
-inline double next_follower_speed_mps(const MesoModel& m, const Lane& lane, const Vehicle& v, const Leader& leader,
-                                      double highest_mps, std::int64_t tick) {
+inline double contact_speed_mps(const MesoModel& m, const Leader& leader) {
+    return std::max(leader.gap_m, 0.0) / m.step_s;
+}
+
+// Returns the next speed behind a leader in the intelligent driver model, without its term of free driving.
+inline double idm_following_mps(const MesoModel& m, const Vehicle& v, const Leader& leader, std::int64_t tick) {
+    const MesoPolicy& p = m.policies[static_cast<std::size_t>(v.policy)];
+    HumanView view{leader.gap_m, v.speed_mps - leader.speed_mps};
+    if (p.is_human) {
+        const DriverRandom random{m.driver_key, v.id};
+        // A driver at rest starts when its leader has moved for the reaction time.
+        const double reaction_s = reaction_time_s(p.driver.human, random);
+        if (v.speed_mps <= 0.0 && leader.speed_mps < reaction_s * leader.acceleration_mps2) return 0.0;
+        view = estimated(p.driver.human, view, v.speed_mps, random, static_cast<double>(tick) * m.step_s);
+    }
+    const double standstill_m = p.s0_m + p.extra_gap_m(v.speed_mps);
+    const double interaction = idm_interaction(p.idm, v.speed_mps, view, standstill_m, p.tau_s * v.speed_mps);
+    return v.speed_mps + p.idm.acceleration_mps2 * m.step_s * (1.0 - interaction);
+}
+
+// Returns the desired next speed of a follower in a model of the Krauss family.
+inline double krauss_desired_mps(const MesoModel& m, const Lane& lane, const Vehicle& v, const Leader& leader) {
     const MesoPolicy& p = m.policies[static_cast<std::size_t>(v.policy)];
     const KraussSettings& s = p.settings;
     const double law_extra_m = p.extra_gap_m(v.speed_mps);
@@ -178,20 +219,35 @@ inline double next_follower_speed_mps(const MesoModel& m, const Lane& lane, cons
     }
     double acceleration_mps2 =
         s.acceleration_mps2 * std::min(1.0, s.constant_power_speed_mps / std::max(v.speed_mps, 1e-3));
-    if (m.bounds_followers_by_power)
-        acceleration_mps2 = std::max(acceleration_mps2, power_bound_mps2(m, lane, v.speed_mps));
+    if (m.bounds_followers_by_power) acceleration_mps2 = std::max(acceleration_mps2, power_bound_mps2(m, lane, v));
     constexpr double kCatchUp_m = 2.0;
     const bool is_close = leader.gap_m - law_extra_m < p.equilibrium_gap_m(v.speed_mps) + kCatchUp_m;
     const double faster_mps = v.speed_mps + acceleration_mps2 * (is_close ? s.catch_up_factor : 1.0) * m.step_s;
-    const double contact_mps = std::max(leader.gap_m, 0.0) / m.step_s;
-    const double desired_mps = snapped(std::min({safe_mps, faster_mps, contact_mps, highest_mps}));
+    return std::min(safe_mps, faster_mps);
+}
+
+// Returns the next speed of a follower. Without platoon leaders, all vehicles are followers.
+inline double next_follower_speed_mps(const MesoModel& m, const Lane& lane, const Vehicle& v, const Leader& leader,
+                                      double highest_mps, std::int64_t tick) {
+    const MesoPolicy& p = m.policies[static_cast<std::size_t>(v.policy)];
+    const double lowest_mps = v.speed_mps - m.hardest_mps2 * m.step_s;
+    const double contact_mps = contact_speed_mps(m, leader);
+    const auto bounded = [&](double desired_mps) {
+        return snapped(std::min({std::max(desired_mps, lowest_mps), contact_mps, highest_mps}));
+    };
+    if (p.is_idm) {
+        const double free_term = idm_free_term(v.speed_mps, m.free_limit_mps(lane, v));
+        return bounded(idm_following_mps(m, v, leader, tick) - p.idm.acceleration_mps2 * m.step_s * free_term);
+    }
+    const KraussSettings& s = p.settings;
+    const double desired_mps = bounded(krauss_desired_mps(m, lane, v, leader));
     const double random = keyed_uniform(m.dawdling_key, v.id, static_cast<std::uint64_t>(tick));
     return desired_mps - s.dawdling * m.step_s * random * std::min(desired_mps, s.acceleration_mps2);
 }
 
 // Returns the next speed of a platoon leader, and sets is_platoon_leader to false if it becomes a follower.
 inline double next_platoon_leader_speed_mps(const MesoModel& m, const Lane& lane, Vehicle& v, const Leader& leader,
-                                            double highest_mps) {
+                                            double highest_mps, std::int64_t tick) {
     const MesoPolicy& p = m.policies[static_cast<std::size_t>(v.policy)];
     double acceleration_mps2 = 0.0;
     if (!m.leader_bins_mps2.empty()) {
@@ -202,16 +258,18 @@ inline double next_platoon_leader_speed_mps(const MesoModel& m, const Lane& lane
         const double power_mps = m.settings.leader_constant_power_speed_mps;
         acceleration_mps2 = m.settings.leader_mps2 * power_mps / std::max(v.speed_mps, power_mps);
     }
-    acceleration_mps2 = std::max(acceleration_mps2, power_bound_mps2(m, lane, v.speed_mps));
+    acceleration_mps2 = std::max(acceleration_mps2, power_bound_mps2(m, lane, v));
     const double free_mps = v.speed_mps + acceleration_mps2 * m.step_s;
-    // Platoon leaders anticipate only if V2V relays the start of a queue. They keep no transient gap.
-    const double anticipated_mps =
-        m.settings.start_relay_vehicles > 0 ? p.settings.anticipation_s * leader.acceleration_mps2 : 0.0;
-    const double contact_mps = std::max(leader.gap_m, 0.0) / m.step_s;
-    const double safe_mps =
-        std::min(meso_safe_speed_mps(p, leader.gap_m, leader.speed_mps + anticipated_mps, p.extra_gap_m(v.speed_mps)),
-                 contact_mps);
-    const double following_mps = leader.id < 0 ? contact_mps : safe_mps;
+    double following_mps = contact_speed_mps(m, leader);
+    if (leader.id >= 0 && p.is_idm) {
+        following_mps = std::min(following_mps, idm_following_mps(m, v, leader, tick));
+    } else if (leader.id >= 0) {
+        // Platoon leaders anticipate only if V2V relays the start of a queue. They keep no transient gap.
+        const double anticipated_mps =
+            m.settings.start_relay_vehicles > 0 ? p.settings.anticipation_s * leader.acceleration_mps2 : 0.0;
+        following_mps = std::min(following_mps, meso_safe_speed_mps(p, leader.gap_m, leader.speed_mps + anticipated_mps,
+                                                                    p.extra_gap_m(v.speed_mps)));
+    }
     const double next_mps = snapped(std::min({following_mps, free_mps, highest_mps}));
     if (following_mps < free_mps && next_mps > 0.0) v.is_platoon_leader = false;
     return next_mps;

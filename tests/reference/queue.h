@@ -31,7 +31,7 @@ inline void update_standing_queue(Lane& lane, std::int64_t tick) {
 // Sends a start message to the first vehicles of the standing queue if the vehicle ahead of the queue has started. The
 // receivers take over the acceleration of this vehicle. The relay ends before a vehicle whose policy has a time gap,
 // before a vehicle with a long gap, and after the highest number of receivers.
-inline void relay_start_message(const MesoModel& model, double length_m, Lane& lane) {
+inline void relay_start_message(const MesoModel& model, Lane& lane) {
     constexpr double kClosedUp_m = 0.5;
     std::deque<Vehicle>& vehicles = lane.vehicles;
     const auto head = std::find_if(vehicles.begin(), vehicles.end(), [](const Vehicle& v) { return v.is_in_queue; });
@@ -42,7 +42,7 @@ inline void relay_start_message(const MesoModel& model, double length_m, Lane& l
     int receivers = 0;
     for (auto v = head; v != vehicles.end() && v->is_in_queue; ++v) {
         const MesoPolicy& policy = model.policies[static_cast<std::size_t>(v->policy)];
-        const double gap_m = (v - 1)->position_m - length_m - v->position_m;
+        const double gap_m = (v - 1)->rear_m() - v->position_m;
         if (receivers == model.settings.start_relay_vehicles || !policy.constant_distance ||
             gap_m > policy.equilibrium_gap_m(0.0) + kClosedUp_m) {
             break;

@@ -1,11 +1,9 @@
 // The data of the reference engine. The reference engine computes the same model as core/sim, but is written for
 // clarity. A vehicle is a struct, a lane is a list of vehicles, and all numbers are doubles. Every vehicle is computed
-// in every step. The engine calls no function of core/sim, core/driver/krauss.h, core/driver/acceleration_laws.h or
-// core/vehicle/powertrain_step.h. It reads the same settings and draws the same random numbers.
-//
-// With `network.kind: approach`, the network is a straight road with one or several lanes. With `intersection`, two
-// streets cross, with one lane for each direction, and all vehicles go straight on. No vehicle changes lanes. Every
-// stop line is at the end of its lane.
+// in every step. The engine calls no function of core/sim, core/driver/krauss.h, core/driver/acceleration_laws.h,
+// core/driver/human.h, core/driver/idm.h or core/vehicle/powertrain_step.h. It reads the settings of the scenario and
+// the constant data of the Model: lane graph, signal programmes, demand and rules. It draws the same random numbers as
+// core/sim.
 #pragma once
 
 #include <algorithm>
@@ -17,15 +15,17 @@
 #include <vector>
 
 #include "base/random.h"
+#include "base/speed_thresholds.h"
 #include "network/lane_graph.h"
 #include "scenario/scenario.h"
-#include "signals/programme.h"
 #include "spacing_laws/gap_policy.h"
 
 namespace stopline::reference_engine {
 
 // Gap of a vehicle without leader. It is so long that no law limits the speed because of it.
 inline constexpr double kNoLeaderGap_m = 1e6;
+
+inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 // Returns a value rounded to float, as core/sim stores some values of the mesoscale mode. The reference engine rounds
 // the same values, because the mesoscale mode amplifies rounding errors: at a low speed v, one metre of gap changes the
@@ -46,19 +46,54 @@ struct Message {
     double rate_1ps = 1.0;  // 1 / lag of the sender
 };
 
+// Why a vehicle waits before a conflict area, at a stop line or beside another lane.
+enum class WaitReason { priority, occupied, intruder, merging, stop_sign, lane_change };
+
 struct Vehicle {
     int id = -1;
-    int policy = 0;
+    int policy = 0;  // also the index of its VehicleKind
+    double length_m = 0.0;
+    int lane = -1;            // set at the start of each step
+    std::size_t index = 0;    // in Lane::vehicles, set at the start of each step
     double position_m = 0.0;  // front, from the start of the lane
     double speed_mps = 0.0;
     double acceleration_mps2 = 0.0;  // in the previous step
     bool is_platoon_leader = true;
-    int leader_id = -1;                // the vehicle that this vehicle follows; -1: none
-    std::int64_t entry_tick = 0;       // step in which the vehicle passed a stop line
-    std::int64_t yield_tick = -2;      // latest step in which the vehicle had to wait before a conflict area
+    int leader_id = -1;        // the vehicle that this vehicle follows; -1: none
+    bool lost_leader = false;  // the leader has just changed lanes or has been left by a lane change
+
+    // Route.
+    int route = -1;
+    int route_index = 0;               // of the present lane
+    int next_lane = -1;                // -1: the vehicle leaves the network, or the lane does not allow its turn
+    int previous_lane = -1;            // -1: none
+    int second_previous_lane = -1;     // -1: none
+    double end_speed_mps = kNoLimit;   // highest speed at the end of the lane, if lower than the limit of the lane
+    Turn following_turn = Turn::none;  // at the second intersection ahead
+    Turn third_turn = Turn::none;      // at the third intersection ahead
+    int trip = -1;                     // -1: the turns are drawn
+    int trip_edge = 0;                 // present edge of the trip
+    int preferred_offset = 0;          // lanes to the lane that suits the later turns; below 0: to the left
+    bool preferred_for_third = false;  // only third_turn is the reason for preferred_offset
+
+    // Intersection.
+    std::int64_t entry_tick = 0;    // step in which the vehicle passed a stop line
+    std::int64_t yield_tick = -2;   // latest step in which the vehicle had to wait
+    double yield_position_m = 0.0;  // position of that wait, from the start of the connection
+    WaitReason yield_reason = WaitReason::priority;
     std::int64_t wait_since_tick = 0;  // step in which that wait began
-    bool is_in_queue = false;          // mesoscale mode: member of the standing queue of its lane
-    bool has_start_message = false;    // mesoscale mode: received a start message in this step
+    std::int64_t line_stop_tick = -1;  // step in which the vehicle stopped for a stop sign; -1: not yet
+    int accepted_gap_on = -1;          // connection on which the vehicle has accepted a gap; -1: none
+
+    // Lane changes.
+    std::int64_t change_tick = -1'000'000;  // step of the latest lane change
+    double remembered_mps = 0.0;            // highest recent speed
+    double left_gain_mps = 0.0;             // speed that the left lane would have gained
+    double right_gain_mps = 0.0;
+
+    // Mesoscale mode only.
+    bool is_in_queue = false;        // member of the standing queue of its lane
+    bool has_start_message = false;  // received a start message in this step
 
     // Full dynamics only.
     double request_mps2 = 0.0;
@@ -71,6 +106,8 @@ struct Vehicle {
     std::deque<Message> sent;       // the newest message first
 
     bool is_at_rest() const { return speed_mps == 0.0 && acceleration_mps2 == 0.0; }
+    bool is_slow() const { return speed_mps < kCrawlingSpeed_mps; }
+    double rear_m() const { return position_m - length_m; }
 };
 
 // The leader of a vehicle at the start of a step, before sensor delays.
@@ -82,40 +119,57 @@ struct Leader {
     const Vehicle* vehicle = nullptr;
 };
 
-// A place before a conflict area where a vehicle must stop.
-struct YieldPlace {
-    std::ptrdiff_t index = -1;  // the vehicle, as an index in Lane::vehicles
-    double position_m = 0.0;    // from the start of the lane
-    int blocker_id = -1;        // the vehicle that goes first
+// A position where a vehicle must stop.
+struct YieldStop {
+    std::size_t index = 0;    // the vehicle, as an index in Lane::vehicles
+    double position_m = 0.0;  // from the start of the lane
+    int blocker_id = -1;      // the vehicle that goes first; -1: none
 };
 
-struct Lane {
-    double length_m = 0.0;
-    double limit_mps = 0.0;
-    double end_speed_mps = 0.0;       // highest speed at the end of the lane, if lower than limit_mps; else 0
-    int signal = -1;                  // signal of the stop line at the end of the lane; -1: no stop line
-    int next = -1;                    // next lane; -1: vehicles leave the network
-    int origin = -1;                  // lane inside an intersection: the lane before it; else -1
-    std::vector<Conflict> conflicts;  // lane inside an intersection: its conflict areas, in driving order
-    double sine = 0.0;                // sine of the slope angle
+// A vehicle that adapts its speed to a gap in the adjacent lane.
+struct Alignment {
+    std::size_t index = 0;
+    double target_mps = 0.0;
+};
+
+// A lane of the lane graph, with its vehicles.
+struct Lane : stopline::Lane {
+    int number = -1;
+    int exit = -1;              // connection: its exit lane
+    double next_limit_m = 0.0;  // position from which the speed limit of the next lane applies
+    double entry_mps = 0.0;     // highest speed at the start of the lane that allows braking to all limits ahead
+    double sine = 0.0;          // sine of the slope angle
+    double first_conflict_m = 1e9;
+    bool yields = false;  // connection: must yield in some conflict area, at least in some signal phase
+    bool has_movement_signals = false;
+    int index = 0;                    // in its approach, from the left
+    std::vector<Conflict> conflicts;  // connection: its conflict areas, in driving order
     std::deque<Vehicle> vehicles;     // the vehicle furthest downstream first
 
-    // Signal.
-    int stopping_id = -1;                 // the vehicle that stops at the line for the signal; -1: none
-    std::ptrdiff_t stop_index = -1;       // the vehicle that stops in this step, as an index in `vehicles`; -1: none
-    std::vector<YieldPlace> yield_stops;  // in this step, in the order of the vehicles
+    // Decisions of the present step.
+    int stopping_id = -1;                // the vehicle that stops at the line for the signal; -1: none
+    std::ptrdiff_t stop_index = -1;      // the vehicle that stops at the line, as an index in `vehicles`; -1: none
+    int stop_id = -1;                    // the same vehicle by its id, kept until the next decision on this lane
+    bool is_held = false;                // the keep-clear rule is the reason for stop_index
+    std::vector<YieldStop> yield_stops;  // in the order of the vehicles
+    std::vector<Alignment> alignments;
+
     // Mesoscale mode: tick at which the standing queue was disturbed for the last time (queue.h).
     std::int64_t disturbed_tick = -1;
 
-    // Returns the vehicle furthest upstream that stops at the line or yields, as an index; -1: none.
+    bool is_connection() const { return origin >= 0; }
+    // Returns the vehicle furthest upstream that stops at the line or at a yield stop, as an index; -1: none.
     std::ptrdiff_t last_stop_index() const {
-        return yield_stops.empty() ? stop_index : std::max(stop_index, yield_stops.back().index);
+        const auto last = yield_stops.empty() ? -1 : static_cast<std::ptrdiff_t>(yield_stops.back().index);
+        return std::max(stop_index, last);
     }
-
-    // Insertion.
-    std::int64_t entered = 0;
-    double last_entry_s = -1e9;
-    std::int64_t blocked_number = -1;  // number of the vehicle that last found no room
+    // Adds a yield stop. Keeps only the stops of the first six vehicles, as core/sim does.
+    void add_yield_stop(const YieldStop& stop) {
+        constexpr std::size_t kCapacity = 6;
+        const auto is_behind = [&](const YieldStop& other) { return other.index > stop.index; };
+        yield_stops.insert(std::find_if(yield_stops.begin(), yield_stops.end(), is_behind), stop);
+        if (yield_stops.size() > kCapacity) yield_stops.pop_back();
+    }
 };
 
 // A vehicle has passed the end of a lane.
@@ -139,25 +193,45 @@ struct Situations {
     std::int64_t held_at_green = 0;  // vehicle steps in which the keep-clear rule holds a vehicle
     std::int64_t deadlocks = 0;      // steps in which slow vehicles waited for each other in a cycle
     std::int64_t yielded = 0;        // vehicles that began to wait before a conflict area
+    std::int64_t gaps_accepted = 0;  // vehicles that accepted a gap between vehicles with priority
+    std::int64_t gaps_refused = 0;   // vehicle steps in which a vehicle with priority arrives too soon
+    std::int64_t merged = 0;         // vehicle steps in which a vehicle follows one that merges ahead of it
+    std::int64_t stop_signs = 0;     // vehicles that stopped at a stop sign
+    std::int64_t mandatory_changes = 0;
+    std::int64_t discretionary_changes = 0;
+    std::int64_t alignments = 0;      // vehicle steps in which a vehicle aligns with a gap in the adjacent lane
+    std::int64_t hidden_leaders = 0;  // vehicle steps in which a vehicle brakes for a hidden leader
+    std::int64_t human_steps = 0;     // vehicle steps of human drivers in motion
     std::int64_t gear_changes = 0;
     std::int64_t emergency_brakings = 0;
     std::int64_t slowed_before_limit = 0;  // steps in which a lower limit ahead slowed a vehicle
 
     void add(const Situations& other) {
-        stopped_at_red += other.stopped_at_red;
-        passed_at_yellow += other.passed_at_yellow;
-        passed_at_red += other.passed_at_red;
-        became_follower += other.became_follower;
-        started_in_queue += other.started_in_queue;
-        start_messages += other.start_messages;
-        entered_late += other.entered_late;
-        exited += other.exited;
-        held_at_green += other.held_at_green;
-        deadlocks += other.deadlocks;
-        yielded += other.yielded;
-        gear_changes += other.gear_changes;
-        emergency_brakings += other.emergency_brakings;
-        slowed_before_limit += other.slowed_before_limit;
+        for (std::int64_t Situations::*count : {&Situations::stopped_at_red,
+                                                &Situations::passed_at_yellow,
+                                                &Situations::passed_at_red,
+                                                &Situations::became_follower,
+                                                &Situations::started_in_queue,
+                                                &Situations::start_messages,
+                                                &Situations::entered_late,
+                                                &Situations::exited,
+                                                &Situations::held_at_green,
+                                                &Situations::deadlocks,
+                                                &Situations::yielded,
+                                                &Situations::gaps_accepted,
+                                                &Situations::gaps_refused,
+                                                &Situations::merged,
+                                                &Situations::stop_signs,
+                                                &Situations::mandatory_changes,
+                                                &Situations::discretionary_changes,
+                                                &Situations::alignments,
+                                                &Situations::hidden_leaders,
+                                                &Situations::human_steps,
+                                                &Situations::gear_changes,
+                                                &Situations::emergency_brakings,
+                                                &Situations::slowed_before_limit}) {
+            this->*count += other.*count;
+        }
     }
 };
 
@@ -169,6 +243,9 @@ struct UndocumentedRules {
     // If the speed limit is above the calibrated limit, the acceleration has a lower bound. For followers this bound
     // applies only if at least one policy has a constant-power speed below 100 m/s.
     bool power_bound_needs_power_limit = true;
+    // A vehicle whose leader has left it by a lane change, and that has no other leader, stays a follower and keeps the
+    // radar history of the old leader. In all other cases, it would become a platoon leader with a new history.
+    bool lost_leader_stays_on_radar = true;
 };
 
 // Random noise that is added to each speed (mesoscale mode), or to each acceleration and request (full dynamics). It
@@ -179,11 +256,6 @@ struct Noise {
     std::uint64_t drawn = 0;
 
     double draw() { return amplitude * (2.0 * random_uniform(seed, ++drawn, 0, Purpose::dawdle) - 1.0); }
-};
-
-// A property of the network that no field of a scenario sets.
-struct Road {
-    double exit_limit_mps = 0.0;  // speed limit of the exit lanes; 0: that of the other lanes
 };
 
 // A curve on a uniform grid that begins at 0: linear between the nodes, constant beyond the last node.
