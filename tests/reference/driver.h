@@ -225,19 +225,14 @@ inline DriverRequest plan_request(const DriverModel& d, const GapPolicy& policy,
     return result;
 }
 
-// Returns the requested acceleration of a human driver: the intelligent driver model for the leader that the driver
-// sees (`seen`), without V2V. A platoon leader starts with the start-up profile. `exact`: the radar view, for the
+// Returns the requested acceleration of a human driver: the intelligent driver model without V2V. `interaction` is the
+// reaction to the vehicles ahead. A platoon leader starts with the start-up profile. `exact`: the radar view, for the
 // braking that avoids a collision.
-inline DriverRequest plan_human_request(const DriverModel& d, const GapPolicy& policy, const RoadView& road,
-                                        const View& exact, const HumanView& seen, double dt, Vehicle& v) {
+inline DriverRequest plan_human_request(const DriverModel& d, const RoadView& road, const View& exact,
+                                        double interaction, double dt, Vehicle& v) {
     const CaccSettings& c = d.settings.cacc;
     const IdmSettings& idm = d.settings.human.idm;
     const double speed_mps = v.speed_mps;
-    const double standstill_gap_m = policy.settings.standstill_gap_m;
-    const double growth_m =
-        std::max(law_gap(policy, std::max(speed_mps + v.acceleration_mps2 * dt, 0.0)).gap_m - standstill_gap_m, 0.0);
-    const double interaction =
-        seen.gap_m > c.radar_range_m ? 0.0 : idm_interaction(idm, speed_mps, seen, standstill_gap_m, growth_m);
     const double follow = interaction > 0.0 ? idm.acceleration_mps2 * (1.0 - interaction) : kNoLimit;
     const double free_mps2 = free_acceleration_mps2(d, speed_mps, road.limit_mps);
     v.is_platoon_leader = v.is_platoon_leader && follow > free_mps2;
@@ -246,11 +241,9 @@ inline DriverRequest plan_human_request(const DriverModel& d, const GapPolicy& p
                              : idm.acceleration_mps2 * (1.0 - idm_free_term(speed_mps, road.limit_mps) - interaction);
     if (v.end_speed_mps < kNoLimit)
         lowest_mps2 = std::min(lowest_mps2, slow_down_mps2(d, speed_mps, v.end_speed_mps, road.to_next_limit_m));
-    View leader;  // what the driver sees, without V2V
-    leader.gap_m = seen.gap_m;
-    leader.closing_mps = seen.closing_mps;
     const double evasive_mps2 = std::min(emergency_mps2(c, speed_mps, exact), keep_room_mps2(c, speed_mps, 0.0, exact));
-    lowest_mps2 = std::min({lowest_mps2, emergency_mps2(c, speed_mps, leader), evasive_mps2, road.demand_mps2});
+    lowest_mps2 = std::min({lowest_mps2, evasive_mps2, road.demand_mps2});
+    if (v.waits_to_start) lowest_mps2 = std::min(lowest_mps2, 0.0);
     return smooth_request(c, lowest_mps2, dt, v);
 }
 

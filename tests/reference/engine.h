@@ -89,7 +89,7 @@ private:
                 const bool lost_leader = std::exchange(v.lost_leader, false) && !w_.rules.lost_leader_stays_on_radar;
                 if (v.index == 0 && (leader.id != v.leader_id || lost_leader)) {
                     v.is_platoon_leader = true;
-                    v.radar.assign(v.radar.size(), {leader.gap_m, v.speed_mps - leader.speed_mps});
+                    v.radar.assign(v.radar.size(), {leader.gap_m, v.speed_mps - leader.speed_mps, v.speed_mps});
                 }
                 v.leader_id = leader.id;
             }
@@ -108,6 +108,7 @@ private:
     // Mesoscale mode: returns the highest speed of the next step that limits, stops and gaps allow.
     double highest_meso_mps(const Lane& lane, const Vehicle& v, const Leader& leader) const {
         constexpr double kAligning_mps2 = 2.0;
+        if (v.waits_to_start) return 0.0;
         double highest_mps = highest_speed_mps(w_.meso, lane, v, leader.id >= 0);
         for_each_stop(lane, v, [&](double position_m) {
             highest_mps = std::min(highest_mps, stopping_speed_mps(w_.meso, v, position_m));
@@ -136,10 +137,24 @@ private:
         return next_mps;
     }
 
+    // Mesoscale mode: finds the human drivers at rest whose leader has just started.
+    void hold_waiting_drivers(Lane& lane) {
+        for (Vehicle& v : lane.vehicles) {
+            const VehicleKind& kind = w_.kind(v);
+            if (!kind.is_human) continue;
+            HumanTimes times = human_times(kind.settings().human, DriverRandom{driver_key(w_.scenario.seed), v.id});
+            times.start_s += w_.meso.settings.start_delay_s;
+            const Leader& leader = w_.leader_of(v);
+            update_start(times, leader.gap_m - kind.standstill_gap_m, leader.speed_mps, w_.step_s, v);
+            if (v.waits_to_start) lane.disturbed_tick = w_.tick;
+        }
+    }
+
     // Mesoscale mode: computes all speeds from the state at the start of the step, then moves all vehicles.
     void move_meso() {
         for (Lane& lane : w_.lanes) {
             for (Vehicle& v : lane.vehicles) v.has_start_message = false;
+            hold_waiting_drivers(lane);
             update_standing_queue(lane, w_.tick);
             relay_start_message(w_.meso, lane);
         }
@@ -184,21 +199,57 @@ private:
         return road;
     }
 
-    DriverRequest request_of(const Vehicle& v, const RoadView& road, const Leader& leader, Vehicle& changed) {
+    // Returns the reaction of a human driver to the vehicles ahead on its lane and to the leader of the first of them:
+    // the sum of the terms (s* / s)^2 of the intelligent driver model.
+    double human_interaction(const VehicleKind& kind, const HumanTimes& times, const View& view, const Lane& lane,
+                             const Vehicle& v) const {
+        const HumanSettings& human = kind.settings().human;
+        const double standstill_m = kind.standstill_gap_m;
+        if (drives_off(times, v.start_steps * w_.step_s, view.closing_mps, view.gap_m - standstill_m)) return 0.0;
+        const double age_s = std::clamp(v.start_steps * w_.step_s - times.start_s, 0.0, times.reaction_s);
+        const auto age = static_cast<std::size_t>(std::max<std::int64_t>(ticks_in(age_s, w_.step_s) - 1, 0));
+        const double own_before_mps = v.radar[age].own_mps;
+        const double driven_m = 0.5 * (own_before_mps + v.speed_mps) * age_s;
+        const std::size_t most = v.start_steps == 0 ? 1 : static_cast<std::size_t>(human.anticipated_vehicles);
+        std::vector<HumanView> views;
+        double gaps_m = 0.0;      // from the driver to the n-th vehicle, without the vehicles between
+        double slower_mps = 0.0;  // own speed minus the speed of the n-th vehicle
+        for (std::size_t n = 1; n <= std::min(most, v.index + 1); ++n) {
+            const RadarSample& sample = lane.vehicles[v.index + 1 - n].radar[age];
+            gaps_m += sample.gap_m;
+            slower_mps += sample.closing_mps;
+            const double other_mps = own_before_mps - slower_mps;
+            const double gap_m = gaps_m + other_mps * age_s - driven_m;
+            if (gap_m > kind.settings().cacc.radar_range_m) break;
+            const double shortest_m = views.empty() ? gap_m : static_cast<double>(n) * views[0].gap_m;
+            views.push_back({std::max(gap_m, shortest_m), v.speed_mps - other_mps});
+        }
+        double squares = 0.0;
+        for (std::size_t n = 1; n <= views.size(); ++n) squares += 1.0 / static_cast<double>(n * n);
+        const double factor = 1.0 / std::sqrt(squares);
+        const double next_mps = std::max(v.speed_mps + v.acceleration_mps2 * w_.step_s, 0.0);
+        const double growth_m = std::max(law_gap(kind.policy, next_mps).gap_m - standstill_m, 0.0);
+        const DriverRandom random{driver_key(w_.scenario.seed), v.id};
+        double sum = 0.0;
+        for (const HumanView& exact : views) {
+            const HumanView seen = estimated(human, exact, v.speed_mps, random, w_.time_s());
+            sum += idm_interaction(human.idm, v.speed_mps, seen, factor * standstill_m, factor * growth_m);
+        }
+        return sum;
+    }
+
+    DriverRequest request_of(const Lane& lane, const Vehicle& v, const RoadView& road, const Leader& leader,
+                             Vehicle& changed) {
         const VehicleKind& kind = w_.kind(v);
         const View view = view_of(v, leader, radar_age_, v2v_age_);
         if (!kind.is_human) return plan_request(kind.driver, kind.policy, road, view, w_.step_s, changed);
         w_.situations.human_steps += v.speed_mps > 0.0 ? 1 : 0;
-        const HumanSettings& human = kind.settings().human;
-        const DriverRandom random{driver_key(w_.scenario.seed), v.id};
-        const double reaction_s = reaction_time_s(human, random);
-        const auto age = static_cast<std::size_t>(std::max<std::int64_t>(ticks_in(reaction_s, w_.step_s) - 1, 0));
-        const RadarSample& seen = v.radar[age];
-        const HumanView estimate = estimated(human, {seen.gap_m - reaction_s * seen.closing_mps, seen.closing_mps},
-                                             v.speed_mps, random, w_.time_s());
+        const HumanTimes times = human_times(kind.settings().human, DriverRandom{driver_key(w_.scenario.seed), v.id});
+        update_start(times, view.gap_m - kind.standstill_gap_m, leader.speed_mps, w_.step_s, changed);
+        const double interaction = human_interaction(kind, times, view, lane, v);
         View exact = view;
         exact.acceleration_mps2 = exact.request_mps2 = leader.acceleration_mps2;
-        return plan_human_request(kind.driver, kind.policy, road, exact, estimate, w_.step_s, changed);
+        return plan_human_request(kind.driver, road, exact, interaction, w_.step_s, changed);
     }
 
     // Full dynamics: computes all requests from the state at the start of the step, then moves all vehicles.
@@ -208,11 +259,11 @@ private:
             const std::vector<double> hidden_mps2 = perception_.hidden_leader_demands(lane);
             for (Vehicle& v : lane.vehicles) {
                 const Leader& leader = w_.leader_of(v);
-                v.radar.push_front({leader.gap_m, v.speed_mps - leader.speed_mps});
+                v.radar.push_front({leader.gap_m, v.speed_mps - leader.speed_mps, v.speed_mps});
                 v.radar.pop_back();
                 const bool was_leader = v.is_platoon_leader;
                 const bool stops = static_cast<std::ptrdiff_t>(v.index) == lane.stop_index;
-                const DriverRequest request = request_of(v, road_view(lane, v, hidden_mps2[v.index]), leader, v);
+                const DriverRequest request = request_of(lane, v, road_view(lane, v, hidden_mps2[v.index]), leader, v);
                 w_.situations.became_follower += was_leader && !v.is_platoon_leader && !stops ? 1 : 0;
                 w_.situations.emergency_brakings += request.is_emergency ? 1 : 0;
                 w_.situations.slowed_before_limit += request.is_slowing_down ? 1 : 0;

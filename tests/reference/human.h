@@ -19,8 +19,36 @@ struct DriverRandom {
     double number(std::uint64_t n) const { return keyed_uniform(key, vehicle, n); }
 };
 
-inline double reaction_time_s(const HumanSettings& h, const DriverRandom& random) {
-    return h.reaction_s + h.reaction_spread_s * (2.0 * random.number(0) - 1.0);
+// The reaction times of one driver: while following, and at the start of the vehicle ahead.
+struct HumanTimes {
+    double reaction_s = 0.0;
+    double start_s = 0.0;
+};
+
+inline HumanTimes human_times(const HumanSettings& h, const DriverRandom& random) {
+    const double reaction_s = h.reaction_s + h.reaction_spread_s * (2.0 * random.number(0) - 1.0);
+    return {reaction_s, h.reaction_s > 0.0 ? h.start_reaction_s * reaction_s / h.reaction_s : h.start_reaction_s};
+}
+
+// Counts the steps since the vehicle ahead began to move, and decides whether the driver waits to start. The count
+// begins anew while both stand and the driver is at most 1 m behind its standstill gap.
+inline void update_start(const HumanTimes& times, double extra_gap_m, double leader_mps, double step_s, Vehicle& v) {
+    const bool is_at_rest = v.speed_mps <= kMesoStopSpeed_mps;
+    const bool both_rest = is_at_rest && leader_mps <= kMesoStopSpeed_mps;
+    if (both_rest && extra_gap_m <= 1.0) {
+        v.start_steps = 0;
+    } else {
+        v.start_steps = std::min(v.start_steps + 1, 1 << 28);
+    }
+    v.waits_to_start = is_at_rest && v.start_steps > 0 && (v.start_steps + 0.5) * step_s < times.start_s;
+}
+
+// Returns true if the driver drives off: it has started, its reaction time has not passed since then, the vehicle ahead
+// is not slower, and the gap is not shorter than the standstill gap.
+inline bool drives_off(const HumanTimes& times, double since_leader_start_s, double closing_mps, double extra_gap_m) {
+    const double since_start_s = since_leader_start_s - times.start_s;
+    return since_leader_start_s > 0.0 && since_start_s >= 0.0 && since_start_s < times.reaction_s &&
+           closing_mps <= 0.0 && extra_gap_m >= 0.0;
 }
 
 // Returns an error process at a time. At each multiple of the correlation time it has a random number with mean 0 and

@@ -40,7 +40,7 @@ inline std::vector<VehicleKind> make_kinds(const Scenario& scenario) {
         kind.length_m = kind.vehicle.settings.length_m;
         kind.standstill_gap_m = stored(kind.policy.settings.standstill_gap_m);
         double hesitation_s = driver.free_drive.hesitation_s;
-        if (kind.is_human) hesitation_s = std::max(hesitation_s, driver.human.reaction_s);
+        if (kind.is_human) hesitation_s = std::max(hesitation_s, driver.human.start_reaction_s);
         if (scenario.is_meso()) hesitation_s += scenario.meso.start_delay_s;
         kind.hesitation_ticks = ticks_in(hesitation_s, scenario.tick_s());
         kinds.push_back(std::move(kind));

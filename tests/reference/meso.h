@@ -134,7 +134,7 @@ inline double snapped(double speed_mps) { return speed_mps < kMesoStopSpeed_mps 
 // vehicle follows the braking curve v^2 = v_end^2 + 2 b distance.
 inline double speed_before_lower_limit_mps(const MesoModel& m, const Lane& lane, const Vehicle& v) {
     if (v.end_speed_mps == kNoLimit) return kNoLimit;
-    const double b = m.driver.free_drive.deceleration_mps2;
+    const double b = m.policies[static_cast<std::size_t>(v.policy)].driver.free_drive.deceleration_mps2;
     const double distance_m = std::max(lane.next_limit_m - v.position_m, 0.0);
     const double allowed_mps = std::sqrt(v.end_speed_mps * v.end_speed_mps + 2.0 * b * distance_m);
     const double share = std::min(m.settings.turn_gain_1ps * m.step_s, 1.0);
@@ -164,7 +164,8 @@ inline double highest_speed_mps(const MesoModel& m, const Lane& lane, const Vehi
     highest_mps = std::max(std::min(highest_mps, limit_mps), v.speed_mps - emergency_mps);
     if (!has_leader) {
         const double target_mps = m.settings.leader_speed_share * limit_mps;
-        const double slowing_mps = v.speed_mps - m.driver.free_drive.deceleration_mps2 * m.step_s;
+        const DriverSettings& driver = m.policies[static_cast<std::size_t>(v.policy)].driver;
+        const double slowing_mps = v.speed_mps - driver.free_drive.deceleration_mps2 * m.step_s;
         const double free_mps = v.speed_mps > target_mps
                                     ? std::max(target_mps, slowing_mps)
                                     : std::min(v.speed_mps + share * (target_mps - v.speed_mps), target_mps);
@@ -195,9 +196,10 @@ inline double idm_following_mps(const MesoModel& m, const Vehicle& v, const Lead
     HumanView view{leader.gap_m, v.speed_mps - leader.speed_mps};
     if (p.is_human) {
         const DriverRandom random{m.driver_key, v.id};
-        // A driver at rest starts when its leader has moved for the reaction time.
-        const double reaction_s = reaction_time_s(p.driver.human, random);
-        if (v.speed_mps <= 0.0 && leader.speed_mps < reaction_s * leader.acceleration_mps2) return 0.0;
+        HumanTimes times = human_times(p.driver.human, random);
+        times.start_s += m.settings.start_delay_s;
+        if (drives_off(times, v.start_steps * m.step_s, view.closing_mps, leader.gap_m - p.s0_m))
+            return v.speed_mps + p.idm.acceleration_mps2 * m.step_s;
         view = estimated(p.driver.human, view, v.speed_mps, random, static_cast<double>(tick) * m.step_s);
     }
     const double standstill_m = p.s0_m + p.extra_gap_m(v.speed_mps);

@@ -33,10 +33,11 @@ inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 // double.
 inline double stored(double value) { return static_cast<double>(static_cast<float>(value)); }
 
-// A measurement of the radar: the net gap, and the own speed minus the speed of the leader.
+// A measurement of the radar: the net gap, the own speed minus the speed of the leader, and the own speed.
 struct RadarSample {
     double gap_m = kNoLeaderGap_m;
     double closing_mps = 0.0;
+    double own_mps = 0.0;
 };
 
 // A V2V message to the follower.
@@ -90,6 +91,10 @@ struct Vehicle {
     double remembered_mps = 0.0;            // highest recent speed
     double left_gain_mps = 0.0;             // speed that the left lane would have gained
     double right_gain_mps = 0.0;
+
+    // Human drivers only.
+    int start_steps = 1 << 28;    // steps since the vehicle ahead began to move
+    bool waits_to_start = false;  // the vehicle ahead has started, but the reaction time has not passed
 
     // Mesoscale mode only.
     bool is_in_queue = false;        // member of the standing queue of its lane

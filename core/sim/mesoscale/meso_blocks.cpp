@@ -162,10 +162,11 @@ private:
         for (int slot = block_.first; slot < block_.past_last(); ++slot) {
             const std::size_t i = at(slot);
             const DriverPlan& driver = model_.driver_of(v_.policy[i]);
-            if (!driver.is_human || (sleeps && slot == block_.first)) continue;
+            if (!driver.is_human) continue;
             const double gap_m = v_.position_m[i - 1] - static_cast<double>(v_.length_m[i - 1]) - v_.position_m[i];
             v_.start_ticks[i] = next_start_ticks(v_.start_ticks[i], v_.speed_mps[i], v_.speed_mps[i - 1],
                                                  gap_m - static_cast<double>(v_.standstill_gap_m[i]));
+            if (sleeps && slot == block_.first) continue;
             const double reaction_s = reaction_time_s(driver.human, keyed_uniform(driver_key_, v_.id[i], 0));
             const double wait_s = start_reaction_s(driver.human, reaction_s) + model_.powertrain_delay_s;
             if (!waits_to_start(v_.start_ticks[i], v_.speed_mps[i], wait_s, model_.step_s)) continue;

@@ -32,11 +32,11 @@ public:
 
     // Inserts a vehicle at a place of a lane, and initialises its sensors.
     void insert(Lane& lane, std::size_t index, Vehicle v) const {
-        RadarSample radar{kNoLeaderGap_m, 0.0};
+        RadarSample radar{kNoLeaderGap_m, 0.0, v.speed_mps};
         if (index > 0) {
             const Vehicle& ahead = lane.vehicles[index - 1];
             v.leader_id = ahead.id;
-            radar = {ahead.rear_m() - v.position_m, v.speed_mps - ahead.speed_mps};
+            radar = {ahead.rear_m() - v.position_m, v.speed_mps - ahead.speed_mps, v.speed_mps};
         }
         v.radar.assign(radar_rows_, radar);
         v.sent.assign(v2v_rows_, {v.acceleration_mps2, v.request_mps2, 1.0 / v.lag_s});

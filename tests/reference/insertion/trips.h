@@ -259,8 +259,8 @@ private:
         const Vehicle& own = on.vehicles[point.index];
         follower.leader_id = own.id;
         follower.is_platoon_leader = false;
-        follower.radar.assign(follower.radar.size(),
-                              {own.rear_m() - follower.position_m, follower.speed_mps - own.speed_mps});
+        follower.radar.assign(follower.radar.size(), {own.rear_m() - follower.position_m,
+                                                      follower.speed_mps - own.speed_mps, follower.speed_mps});
         on.stopping_id = -1;
         return true;
     }

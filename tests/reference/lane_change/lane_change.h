@@ -232,7 +232,7 @@ private:
         if (index == 0) return;
         const Vehicle& ahead = on.vehicles[index - 1];
         v.is_platoon_leader = false;
-        v.radar.assign(v.radar.size(), {ahead.rear_m() - v.position_m, v.speed_mps - ahead.speed_mps});
+        v.radar.assign(v.radar.size(), {ahead.rear_m() - v.position_m, v.speed_mps - ahead.speed_mps, v.speed_mps});
     }
 
     World& w_;

@@ -110,12 +110,9 @@ void VehicleArrays::reset_radar(int slot, double gap_m, double closing_mps) {
         radar_gap_m[row(r, slot)] = static_cast<float>(gap_m);
         radar_closing_mps[row(r, slot)] = static_cast<float>(closing_mps);
     }
-}
-
-void VehicleArrays::reset_own_speed(int slot) {
     if (!stores_own_speed()) return;
-    const auto speed_now_mps = static_cast<float>(speed_mps[static_cast<std::size_t>(slot)]);
-    for (int r = 0; r < radar_rows; ++r) own_speed_mps[row(r, slot)] = speed_now_mps;
+    const auto own_mps = static_cast<float>(speed_mps[static_cast<std::size_t>(slot)]);
+    for (int r = 0; r < radar_rows; ++r) own_speed_mps[row(r, slot)] = own_mps;
 }
 
 void VehicleArrays::reset_powertrain(int slot, const PowertrainTables& vehicle, double speed) {

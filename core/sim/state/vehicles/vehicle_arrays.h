@@ -51,7 +51,7 @@ struct VehicleArrays {
     LargeArray<float> v2v_acceleration_mps2;
     LargeArray<float> v2v_request_mps2;
     LargeArray<float> v2v_rate_1ps;   // 1 / lag_s
-    LargeArray<float> own_speed_mps;  // in the rows of the radar; only in runs with human drivers
+    LargeArray<float> own_speed_mps;  // at the time of the radar measurement; only in runs with human drivers
     // A step reads these values only for some vehicles, mainly for the first vehicles of a lane and for vehicles that
     // change the lane or the route. Full dynamics also reads the standstill gap of all vehicles, and their type if the
     // model has several types.
@@ -78,8 +78,6 @@ struct VehicleArrays {
     // Mesoscale mode: adds free slots at the end.
     void grow(int slot_count);
     bool has_powertrain() const { return v2v_rows > 0; }
-    // Fills all rows of own_speed_mps with the present speed. Does nothing in runs without human drivers.
-    void reset_own_speed(int slot);
     // Copies a vehicle to a slot of another lane, without the values that depend on the lane.
     void copy(int from, int to);
     // Moves vehicles in consecutive slots to other slots of the same lane.
@@ -93,7 +91,7 @@ struct VehicleArrays {
     }
     // Sets the powertrain to the state of steady driving at a speed.
     void reset_powertrain(int slot, const PowertrainTables& vehicle, double speed);
-    // Fills all rows of the radar delay line with one measurement.
+    // Fills all rows of the radar delay line with one measurement at the present own speed.
     void reset_radar(int slot, double gap_m, double closing_mps);
     // Fills all rows of the V2V delay line with the present state of the vehicle.
     void reset_v2v(int slot);
