@@ -224,5 +224,36 @@ populations: [CDG-6m]
     EXPECT_EQ(result.violations.deadlocks, 0);
 }
 
+// Articulated lorries from crossing streets meet inside the intersection after a short all-red time. A lorry that turns
+// left must not stop behind another lorry, with its tail in the path of a third lorry for which the second one waits.
+TEST(LongVehicles, DoNotStandInEachOthersPath) {
+    const Scenario scenario = parse_scenario(R"(
+seed: 526
+step: 20 ms
+duration: 400 s
+network:
+  kind: intersection
+  intersection:
+    lanes: [{movements: left}, {movements: straight+left}, {movements: straight+right}]
+    radius: 30 m
+    approach_length: 92 m
+    exit_length: 100 m
+    speed_limit: 30 km/h
+    turn_speed: 9 m/s
+signal: {green: 10 s, yellow: 5 s, all_red: 1 s}
+demand: {kind: rate, inflow: 3450 veh/h, left: 20 %, right: 10 %}
+driver: {base: startup_kit, free_drive: {hesitation: 0 s}}
+populations:
+- name: X
+  pattern: balanced
+  components: [{policy: CDG-6m, share: 100 %, vehicle: articulated_lorry_35t, driver: lorry}]
+)",
+                                             "test.yaml");
+    const IntersectionResult result = run_intersection(scenario, 0);
+    EXPECT_TRUE(result.violations.none());
+    EXPECT_EQ(result.violations.deadlocks, 0);
+    EXPECT_GT(result.throughput_veh_h, 1100.0);
+}
+
 }  // namespace
 }  // namespace stopline

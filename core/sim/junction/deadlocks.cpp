@@ -72,7 +72,8 @@ private:
         if (state_.junctions.has_yield_stops[at(lane)] != 0) {
             if (const YieldStop* const stop = state_.junctions.yield_stops[at(lane)].find(slot);
                 stop != nullptr && stop->blocker >= 0) {
-                return {slot, stop->blocker, !is_in_path(lane, slot, stop->blocker)};
+                const bool may_go = stop->reason != YieldReason::deadlock && !is_in_path(lane, slot, stop->blocker);
+                return {slot, stop->blocker, may_go};
             }
         }
         if (!is_blocked_by_leader(state_, slot)) return {slot};

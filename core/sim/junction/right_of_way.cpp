@@ -14,6 +14,7 @@
 //   - If neither connection has priority (movements of different signal groups), the vehicle that was the first to pass
 //     its stop line drives first. Exception: if only one of the two vehicles can stop before the area, the other one
 //     drives first. If two vehicles wait for each other, one of them proceeds (DeadlockResolution).
+//   - The vehicle does not complete a circle of vehicles that are in each other's path (deadlock_avoidance.h).
 // The pass-blocker rule (driver/traffic_rules.h) lets a vehicle pass another vehicle that has been stopped inside the
 // intersection for a long time.
 #include "sim/junction/right_of_way.h"
@@ -28,6 +29,7 @@
 #include "sim/junction/arrivals.h"
 #include "sim/junction/candidate.h"
 #include "sim/junction/count_conflicts.h"
+#include "sim/junction/deadlock_avoidance.h"
 #include "sim/junction/deadlocks.h"
 #include "sim/junction/gap_acceptance.h"
 #include "sim/junction/merging.h"
@@ -57,15 +59,6 @@ bool may_pass(const Model& model, State& state, Partition& part, int vehicle, in
     return true;
 }
 
-// Returns true if the vehicle can stop, with maximum braking, before a conflict area that begins `to_area_m` ahead of
-// it.
-bool can_stop_before(const Model& model, const State& state, int slot, double to_area_m) {
-    constexpr double kResponse_s = 0.3;  // brake lag plus the time in which the requested acceleration changes
-    const double speed_mps = state.vehicles.speed_mps[at(slot)];
-    const double response_m = model.meso ? 0.0 : kResponse_s * speed_mps;
-    return emergency_braking_distance_m(model, speed_mps) + response_m <= to_area_m;
-}
-
 // Returns true if an occupant of connection `conflict.other` keeps candidate `v` out of the conflict area. The gap to
 // approaching vehicles with priority is checked elsewhere (find_gap_blocker()).
 bool blocks_area(const Model& model, State& state, Partition& part, int lane, const Conflict& conflict,
@@ -81,8 +74,10 @@ bool blocks_area(const Model& model, State& state, Partition& part, int lane, co
     }
     // Neither connection has priority. If only one of the two vehicles can stop before the area, this vehicle waits.
     // The other vehicle would come to rest inside the area if it braked.
-    const bool can_stop = can_stop_before(model, state, v.slot, conflict.from_m - v.front_m);
-    const bool other_can_stop = can_stop_before(model, state, occupant.slot, conflict.other_from_m - occupant.front_m);
+    const auto& speed_mps = state.vehicles.speed_mps;
+    const bool can_stop = can_stop_within(model, speed_mps[at(v.slot)], conflict.from_m - v.front_m);
+    const bool other_can_stop =
+        can_stop_within(model, speed_mps[at(occupant.slot)], conflict.other_from_m - occupant.front_m);
     if (can_stop != other_can_stop) return can_stop;
     // If both vehicles wait for each other, a deadlock resolution decides which one proceeds.
     if (find_resolution(state, part, occupant.slot, v.slot) != nullptr) return true;
@@ -148,6 +143,9 @@ private:
         was_waiting_ = v_.stopped || record_.yield_tick >= state_.tick - 1;
         const bool checks_committed = was_waiting_ || is_imported_;
         if (!has_others_inside && !checks_committed && (has_decided_ || !plan.yields)) return {};
+        // A stopped candidate cannot use its accepted gap if it must not enter an area further ahead.
+        const KeptOutArea kept_out = area_to_keep_clear(model_, state_, lane_, v_);
+        if (kept_out.exists() && v_.stopped) has_decided_ = false;
         // The candidate may follow a vehicle that is about to leave a conflict area or that merges ahead of it, but
         // must stay able to stop behind that vehicle. `behind` is the nearest stopping place behind such a vehicle.
         Wait behind;
@@ -157,6 +155,9 @@ private:
             const bool is_far = wait_m(conflict) - v_.front_m > decision_m_;
             const bool is_beyond_decision = is_far && !waits_at_line();
             if (is_beyond_decision && !is_imported_) break;
+            if (conflict.from_m >= kept_out.from_m && !is_beyond_decision)
+                return nearer({std::min(wait_m(conflict), line_m_), kept_out.crossing_slot, YieldReason::deadlock},
+                              behind);
             const bool is_empty = !has_others_inside || state_.junctions.occupants[at(conflict.other)].empty();
             if (merges) {
                 if (!is_beyond_decision) keep_nearer(merging_wait(conflict, is_empty), behind);
@@ -165,7 +166,9 @@ private:
                 keep_nearer({wait_m(conflict), wait.blocker, YieldReason::merging}, behind);
             }
             if (conflict.yields && !has_decided_ && !is_beyond_decision && v_.front_m <= conflict.from_m) {
-                const GapBlocker blocker = ahead >= 0 ? GapBlocker{ahead} : gap_blocker(conflict);
+                const GapBlocker blocker = kept_out.exists() ? GapBlocker{kept_out.crossing_slot, YieldReason::deadlock}
+                                           : ahead >= 0      ? GapBlocker{ahead}
+                                                             : gap_blocker(conflict);
                 if (blocker.slot >= 0)
                     return nearer({std::min(wait_m(conflict), line_m_), blocker.slot, blocker.reason}, behind);
                 has_decided_ = true;
