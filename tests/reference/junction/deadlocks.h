@@ -35,7 +35,7 @@ private:
         for (const YieldStop& stop : on.yield_stops) {
             if (stop.index != v.index || stop.blocker_id < 0) continue;
             const Vehicle& blocker = w_.vehicle(stop.blocker_id);
-            return {&v, &blocker, !is_in_area(v, blocker)};
+            return {&v, &blocker, stop.reason != WaitReason::deadlock && !is_in_area(v, blocker)};
         }
         return {&v, is_blocked_by_leader(w_, v) ? queue_leader(w_, v) : nullptr};
     }

@@ -4,6 +4,7 @@
 
 #include <tuple>
 
+#include "reference/junction/deadlock_avoidance.h"
 #include "reference/junction/deadlocks.h"
 #include "reference/junction/gap_acceptance.h"
 
@@ -113,7 +114,7 @@ private:
         Vehicle& v = *c.vehicle;
         if (w_.is_imported) wait.place_m = clear_place_m(c, wait.place_m);
         const int blocker_id = wait.blocker == nullptr ? -1 : wait.blocker->id;
-        w_.lane_of(v).add_yield_stop({v.index, wait.place_m - start_m, blocker_id});
+        w_.lane_of(v).add_yield_stop({v.index, wait.place_m - start_m, blocker_id, wait.reason});
         if (wait.reason == WaitReason::merging) {
             ++w_.situations.merged;
             return;
@@ -170,6 +171,9 @@ private:
         const bool checks_committed = was_waiting || w_.is_imported;
         const bool has_others = has_crossing_occupants(connection);
         if (!has_others && !checks_committed && (has_gap || !connection.yields)) return {};
+        const bool avoids_deadlocks = w_.scenario.rules.pass_blocker_greens == 0.0;
+        const KeptOutArea kept_out = avoids_deadlocks ? DeadlockAvoidance(w_, c).area() : KeptOutArea{};
+        if (kept_out.crossing != nullptr && c.is_stopped()) has_gap = false;
         Wait behind;  // nearest place behind a vehicle that the candidate may follow
         for (const Conflict& conflict : connection.conflicts) {
             const bool merges = merging_.is_merge(c.connection, conflict);
@@ -177,6 +181,10 @@ private:
             const bool is_far = places.before_m(conflict) - c.front_m > places.decision_m;
             const bool is_beyond_decision = is_far && !places.is_line();
             if (is_beyond_decision && !w_.is_imported) break;
+            if (conflict.from_m >= kept_out.from_m && !is_beyond_decision) {
+                ++w_.situations.deadlocks_avoided;
+                return nearer({places.at_m(conflict), kept_out.crossing, WaitReason::deadlock}, behind);
+            }
             if (merges) {
                 if (!is_beyond_decision) behind = nearer(behind, merging_wait(c, conflict, was_waiting));
             } else if (const Wait wait = area_wait(c, conflict, places, was_waiting, is_far); wait.exists()) {
@@ -184,7 +192,10 @@ private:
                 behind = nearer(behind, {places.before_m(conflict), wait.blocker, WaitReason::merging});
             }
             if (!conflict.yields || has_gap || is_beyond_decision || c.front_m > conflict.from_m) continue;
-            const GapBlocker blocker = ahead != nullptr ? GapBlocker{ahead} : gap_blocker(c, conflict, places);
+            const GapBlocker blocker = kept_out.crossing != nullptr
+                                           ? GapBlocker{kept_out.crossing, WaitReason::deadlock}
+                                       : ahead != nullptr ? GapBlocker{ahead}
+                                                          : gap_blocker(c, conflict, places);
             if (blocker.vehicle != nullptr)
                 return nearer({places.at_m(conflict), blocker.vehicle, blocker.reason}, behind);
             has_gap = true;
