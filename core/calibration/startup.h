@@ -41,8 +41,8 @@ struct StartupRun {
 StartupRun simulate_start(const Scenario& scenario, const std::vector<double>& times_s);
 
 struct StartupFit {
-    // The driver of the scenario, but with the fitted acceleration curve, and for human drivers with the result of
-    // fit_idm_acceleration_mps2() for the speed limit of the scenario.
+    // The driver of the scenario with two fitted parts: the acceleration curve, and human.idm.acceleration
+    // (fit_idm_acceleration_mps2() with the speed limit as desired speed).
     DriverSettings driver;
     double rms_before_mps = 0.0;  // root mean square deviation from the measured mean
     double rms_after_mps = 0.0;

@@ -120,7 +120,8 @@ struct IdmSettings {
 };
 
 // Human drivers (human.h), for policies with the law `human`. The errors are those of Treiber, Kesting, Helbing 2006.
-// The shipped drivers replace the maximum acceleration by that of measured starts (data/drivers).
+// The shipped drivers set the maximum acceleration themselves: startup_kit from measured starts, lorry and bus from
+// VECTO (data/drivers).
 // The reaction times are those of Green 2000, "How long does it take to stop?": about 0.75 s to an expected event, such
 // as the start of the queue ahead, and about 1.25 s to an unexpected signal of the car ahead. While following, the mean
 // of both applies.

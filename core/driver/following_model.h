@@ -164,9 +164,9 @@ concept CarFollowing = std::is_trivially_copyable_v<M> &&
     { model.leader_foresees() } -> std::same_as<bool>;
 };
 
-// FollowingAt gives a model its place in the list of all models (sim/mesoscale/following_types.h). The file of the
-// model specialises it for a free place, with the trait struct as `Trait`. The order of the places is the order in
-// lists for users. Places may stay free.
+// FollowingAt gives a model its number in the list of all models (sim/mesoscale/following_types.h). The file of the
+// model specialises it for a free number, with the trait struct as `Trait`. Lists for users are in the order of these
+// numbers. Numbers may stay free.
 inline constexpr int kFollowingPlaces = 32;
 template <int place>
 requires(place >= 0 && place < kFollowingPlaces) struct FollowingAt {

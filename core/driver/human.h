@@ -22,16 +22,18 @@
 // speed up to kFullErrorSpeed_mps.
 //
 // Each driver has its own reaction time, uniform within reaction_s +- reaction_spread_s. Its reaction time at the start
-// differs from start_reaction_s by the same share. Full dynamics stores the measurements of past steps, so a driver
-// sees them tau late (sim/full_dynamics/human_perception.h). The mesoscale mode stores no past. There, a driver in
-// motion has no delay and one leader, because the anticipation compensates for the delay (main result of the source).
+// deviates from start_reaction_s by the same percentage. Full dynamics stores the measurements of past steps, so a
+// driver sees them tau late, but at most as late as its own start (view_age_s()). The mesoscale mode stores no past.
+// There, a moving driver sees its leader without delay and reacts to this leader only. Reason: the anticipation
+// compensates for the delay (main result of the source).
 //
 // Start. A driver at rest behind its leader begins to accelerate one start reaction time after the leader has begun to
-// move. It then drives off: until a reaction time has passed, it accelerates as without a leader, unless the leader is
-// slower than itself or the gap is shorter than the standstill gap. Otherwise the reaction would count twice, because
-// the intelligent driver model alone starts as late as measured drivers: its acceleration grows with the gap. Measured
-// followers accelerate at once (data/startup/stuttgart_curve.csv). In full dynamics the powertrain adds its delay. In
-// the mesoscale mode MesoSettings::start_delay_s takes its place.
+// move. The driver then drives off: for one further reaction time it accelerates as if there were no leader. This ends
+// early if the leader is slower than the driver, or if the gap is shorter than the standstill gap. Reason: the
+// acceleration of the intelligent driver model grows with the gap, so this model alone starts as late as measured
+// drivers. With the waiting time in addition, the delay would count twice. Measured followers accelerate at once
+// (data/startup/stuttgart_curve.csv). In full dynamics, the powertrain adds its delay. In the mesoscale mode,
+// MesoSettings::start_delay_s stands for this delay.
 #pragma once
 
 #include <array>
@@ -52,7 +54,7 @@ STOPLINE_INLINE R reaction_time_s(const HumanSettings& h, const R& u) {
     return h.reaction_s + h.reaction_spread_s * (2.0 * u - 1.0);
 }
 
-// The reaction time at the start of a driver with the given reaction time.
+// Returns the start reaction time of a driver whose reaction time while following is `reaction_s`.
 template <class R>
 STOPLINE_INLINE R start_reaction_s(const HumanSettings& h, const R& reaction_s) {
     return h.reaction_s > 0.0 ? R(reaction_s * (h.start_reaction_s / h.reaction_s)) : R(h.start_reaction_s);
@@ -68,13 +70,15 @@ STOPLINE_INLINE R is_driving_off(const R& since_leader_start_s, const R& wait_s,
            STOPLINE_FLAG(R, extra_gap_m >= 0.0);
 }
 
-// The start of a driver behind its leader, as the number of steps since the leader began to move.
+// Number of steps since the leader of a stopped driver began to move.
 // kStartedLongAgo_ticks is also the value of a driver that has not stopped behind a leader.
 inline constexpr int kStartedLongAgo_ticks = 1 << 28;
-inline constexpr double kStandsClosedUp_m = 1.0;  // extra gap up to which the leader is the reason of a driver's stand
+inline constexpr double kStandsClosedUp_m =
+    1.0;  // a driver with a larger extra gap has not stopped because of its leader
 
-// Returns the number of steps since the start of the leader, one step after it was `ticks`. It is 0 while both are at
-// rest and the driver stands closed up. `extra_gap_m` is the net gap minus the standstill gap.
+// Advances the count of steps since the leader started by one step. `ticks` is the value of the previous step. Returns
+// 0 while driver and leader are stopped and the extra gap is at most kStandsClosedUp_m. `extra_gap_m` is the net gap
+// minus the standstill gap.
 inline int next_start_ticks(int ticks, double speed_mps, double leader_speed_mps, double extra_gap_m) {
     const bool both_rest = speed_mps <= kMesoStopSpeed_mps && leader_speed_mps <= kMesoStopSpeed_mps;
     if (both_rest && extra_gap_m <= kStandsClosedUp_m) return 0;
@@ -139,7 +143,7 @@ STOPLINE_INLINE HumanView<R> with_errors(const HumanSettings& h, const HumanView
 
 // Human drivers as a car-following model of the mesoscale mode. The concept CarFollowing (following_model.h) explains
 // the functions. The policy gives the standstill gap and the time gap, the driver all other parameters.
-// collect_moving_blocks() keeps a driver at rest that waits to start.
+// collect_moving_blocks() holds a stopped driver until its waiting time is over.
 struct Human : Idm {
     static constexpr std::array kNames{FollowingName{"human", "human drivers: idm with reaction time and errors"}};
 

@@ -15,7 +15,7 @@ namespace stopline {
 
 enum class Light : std::uint8_t { red, green, yellow };
 
-// Start of the latest green where there has been no green yet. All other starts, below 0 too, are ticks.
+// Stands for the start tick of the latest green if there has been no green yet. Negative values are ordinary ticks.
 inline constexpr std::int64_t kNoGreen = std::numeric_limits<std::int64_t>::min();
 
 struct Stage {

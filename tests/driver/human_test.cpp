@@ -100,7 +100,7 @@ TEST(HumanDriver, DrivesOffForOneReactionTime) {
     EXPECT_DOUBLE_EQ(view_age_s(3.0, 1.0), 1.0);
 }
 
-// In equilibrium, the terms of n leaders at n times the gap add up to that of one leader.
+// In equilibrium, leaders 1 to n at 1 to n times the gap have the same effect together as one leader at this gap.
 TEST(HumanDriver, KeepsTheSameGapBehindSeveralLeaders) {
     for (const int leaders : {1, 2, 5, 10}) {
         double sum = 0.0;
@@ -112,8 +112,8 @@ TEST(HumanDriver, KeepsTheSameGapBehindSeveralLeaders) {
     }
 }
 
-// A leader that stops again during the reaction time ends the wait. A driver that stands far behind its leader does not
-// stand because of it, and has no reaction time to the leader's start.
+// A leader that stops again during the reaction time ends the wait. A driver that has stopped far behind its leader
+// stopped for another reason. It does not wait for the start of the leader.
 TEST(HumanDriver, WaitsOnlyForALeaderCloseAhead) {
     const int waiting = next_start_ticks(0, 0.0, 1.0, 0.1);
     EXPECT_EQ(waiting, 1);

@@ -35,7 +35,7 @@ struct QueueStart {
     int passed = 0;                      // vehicles whose fronts pass the stop line within 70 s of green
 };
 
-// Returns the time at which the position of a point of the vehicle passes the stop line, from two successive positions.
+// Returns the time at which a point of the vehicle passes the stop line, interpolated between two positions.
 double passing_s(double before_m, double after_m, double line_m, double time_s, double step_s) {
     return time_s - step_s * (after_m - line_m) / (after_m - before_m);
 }

@@ -225,7 +225,7 @@ populations: [CDG-6m]
 }
 
 // Articulated lorries from crossing streets meet inside the intersection after a short all-red time. A lorry that turns
-// left must not stop behind another lorry, with its tail in the path of a third lorry for which the second one waits.
+// left must not stop behind a second lorry if its rear then blocks a third lorry that the second one waits for.
 TEST(LongVehicles, DoNotStandInEachOthersPath) {
     const Scenario scenario = parse_scenario(R"(
 seed: 526

@@ -162,7 +162,7 @@ SeedSpread spread_of(const std::vector<double>& values) {
     return {mean, interval.low, interval.high};
 }
 
-// Returns the last column of the table that the metric has; empty if there is none.
+// Returns the name of the last column of the table that belongs to the metric, or "" if there is none.
 std::string column_of(const CsvTable& results, const DrawnMetric& metric) {
     const auto found = std::find_if(results.columns.rbegin(), results.columns.rend(),
                                     [&](const std::string& column) { return metric.has(column); });
@@ -172,7 +172,7 @@ std::string column_of(const CsvTable& results, const DrawnMetric& metric) {
 // Returns the metrics of a group that the figures of sweeps show, or nothing if the table does not have all of them.
 std::vector<SweepMetric> metrics_of(const MetricGroup& group, const CsvTable& results) {
     std::vector<SweepMetric> metrics;
-    // Tables of runs over several intersections say whether each run is stable.
+    // Only tables of networks have the column `stability`. Without it, the table belongs to another group.
     if (group.name == kRunAsNetwork && !has_column(results, "stability")) return {};
     for (const DrawnMetric& metric : group.drawn) {
         const SweepPanels& panels = metric.figure.sweep;

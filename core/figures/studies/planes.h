@@ -39,8 +39,8 @@ struct SweepMetric {
     bool improves() const { return better != Better::neither; }
 };
 
-// Returns the metrics that the figures of a sweep show, one in each column of panels: those of a group whose entry has
-// SweepPanels. The group is the first one of which the table has all these metrics. Returns nothing if there is none.
+// Returns the metrics that the figures of a sweep show, one for each column of panels. Takes the first group for which
+// the table has a column for every metric with SweepPanels. Returns nothing if there is no such group.
 std::vector<SweepMetric> sweep_metrics(const CsvTable& results, const std::string& population_column,
                                        const std::vector<MetricGroup>& groups = metric_groups());
 

@@ -83,8 +83,7 @@ struct ConsoleColumn {
     bool is_in(ConsoleTable wanted) const { return !heading.empty() && table == wanted; }
 };
 
-// The change of a metric against a baseline that is an improvement. `neither`: a change of the metric is not good or
-// bad in itself.
+// Tells which value of a metric is better than that of the baseline: a higher one, a lower one, or neither.
 enum class Better : std::uint8_t { higher, lower, neither };
 
 // Panels of a metric in the figures of sweeps: its value, and its change against the baseline.
@@ -101,7 +100,7 @@ struct SweepPanels {
 // Appearance of a metric in figures.
 struct MetricFigure {
     std::string_view axis = {};  // name on axes; empty: the name of the column without its unit
-    // Of a family, the figures of sweeps show the last key.
+    // The figures of sweeps show only the last key of a family, such as the last green time.
     SweepPanels sweep = {};
 };
 

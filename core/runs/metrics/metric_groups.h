@@ -12,8 +12,8 @@
 
 namespace stopline {
 
-// A metric as figures show it. Figures of sweeps are drawn from a table of results without its scenario, so the name of
-// a column contains the key of a family.
+// A metric as figures show it. The figures of a sweep have only the table of results, not the scenario. They read the
+// key of a family from the name of the column.
 struct DrawnMetric {
     std::string_view column;       // as in Metric
     std::string_view placeholder;  // that of the family; empty: the metric has no family

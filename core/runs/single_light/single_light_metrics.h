@@ -41,10 +41,11 @@ struct MeasuredGreen {
     }
 };
 
-// The metrics of each green time: the columns of improvement.csv, and parts of a table on the console. A metric that
-// sweeps have has a column for each green time there: `passed_veh` becomes `passed_K_veh`, where K is the number of the
-// green time, also in the texts for figures. In meanings, kThisGreen stands for the green time. In console headings,
-// kTheBaseline stands for the name of the baseline. Such a part is left out if there is no baseline.
+// The metrics of each green time. Each metric is a column of improvement.csv and a block of columns of the table on the
+// console. If sweeps have the metric, it has one column for each green time there: `passed_veh` becomes `passed_1_veh`,
+// `passed_2_veh`, ... In texts for figures, K stands for the number of the green time. In meanings, kThisGreen stands
+// for the green time. In console headings, kTheBaseline stands for the name of the baseline. Without a baseline, the
+// console omits blocks with kTheBaseline.
 const MetricList<MeasuredGreen>& green_metrics();
 inline constexpr std::string_view kThisGreen = "GREEN";
 inline constexpr std::string_view kTheBaseline = "BASELINE";

@@ -22,8 +22,8 @@
 
 namespace stopline {
 
-// The names of the ways of running a scenario (RunKind in runs/run_kind.h). Tables of results have these names before
-// their own in scenarios/COLUMNS.md.
+// The names of the ways of running a scenario (RunKind in runs/run_kind.h). scenarios/COLUMNS.md puts this name before
+// the name of a table, as in `network/summary.csv`.
 inline constexpr const char* kRunAsSingleLight = "single_light";
 inline constexpr const char* kRunAsIntersection = "intersection";
 inline constexpr const char* kRunAsNetwork = "network";

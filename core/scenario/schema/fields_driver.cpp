@@ -199,8 +199,9 @@ const Table& human_table() {
                 "start_reaction", "s", {0, 2},
                 "mean reaction time to the start of the vehicle ahead, or to the start of green"),
             number<&S::reaction_s>("reaction", "s", {0, 2}, "mean reaction time while following"),
-            number<&S::reaction_spread_s>("reaction_spread", "s", {0, 2},
-                                          "the reaction times of drivers differ from the mean by up to this time"),
+            number<&S::reaction_spread_s>(
+                "reaction_spread", "s", {0, 2},
+                "largest deviation of a reaction time from its mean; `start_reaction` deviates by the same percentage"),
             number<&S::gap_error>("gap_error", "", {0, 0.5}, "standard deviation of the estimated gap, relative"),
             number<&S::closing_error_1ps>("closing_error", "1/s", {0, 0.1},
                                           "standard deviation of the estimated closing speed per metre of gap"),

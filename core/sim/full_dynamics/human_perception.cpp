@@ -70,13 +70,15 @@ public:
     double interaction(int leaders, double growth_m, double closing_mps) const {
         if (is_driving_off(since_leader_start_s_, wait_s_, reaction_s_, closing_mps, extra_gap_m_) > 0.0) return 0.0;
         const double age_s = view_age_s(since_leader_start_s_ - wait_s_, reaction_s_);
-        // The request takes effect a step later, so the measurement may be a step younger than its age.
+        // The request takes effect a step later, so the driver uses a measurement that is one step younger than age_s.
         const std::int64_t age = std::max<std::int64_t>(std::llround(age_s / model_.step_s) - 1, 0);
         const std::size_t first = row_of_age(model_, state_, age) + at(slot_);
-        // The driver knows its own motion since then. The distance is computed with the mean of both speeds.
+        // The driver knows how it has moved since the measurement. Its distance is the age times the mean of its speeds
+        // then and now.
         const double gained_mps = speed_mps_ - v_.own_speed_mps[first];
         const double range_m = driver_.tables.cacc.radar_range_m;
-        // A driver behind a standing leader does not start because vehicles further ahead have started.
+        // While the leader is stopped, the driver reacts to the leader alone. Otherwise it would start as soon as
+        // vehicles further ahead start.
         const int most = since_leader_start_s_ == 0.0 ? 1 : std::min(driver_.human.anticipated_vehicles, leaders);
         std::array<HumanView<double>, kMaxAnticipatedVehicles> views{};
         HumanView<double> exact{-0.5 * age_s * gained_mps, gained_mps};

@@ -10,9 +10,10 @@
 
 namespace stopline {
 
-// Sets FullGroup::interaction of all vehicles with human drivers. It comes from the measurements of one reaction time
-// ago, with temporal anticipation and estimation errors. Limits FullGroup::demand to 0 for drivers at rest that wait to
-// start. Counts VehicleArrays::start_ticks. Does nothing if no driver is human.
+// Sets FullGroup::interaction of all vehicles with human drivers. The values are computed from past measurements, with
+// temporal anticipation and estimation errors. The age of the measurements is the reaction time, but at most the time
+// since the own start (view_age_s()). Limits FullGroup::demand to 0 for drivers at rest that wait to start. Counts
+// VehicleArrays::start_ticks. Does nothing if no driver is human.
 //
 // Also limits FullGroup::demand of these vehicles to the braking of emergency_acceleration() and
 // keep_room_acceleration() for the present gap (our choice, not in the source of human.h). Without this braking, a

@@ -21,9 +21,9 @@ struct OnConnection {
     double front_m = 0.0;  // front position, from the start of the connection
 };
 
-class CircleSearch {
+class CycleSearch {
 public:
-    CircleSearch(const Model& model, const State& state, int lane, const Candidate& v)
+    CycleSearch(const Model& model, const State& state, int lane, const Candidate& v)
         : model_(model),
           state_(state),
           arrays_(state.vehicles),
@@ -39,7 +39,7 @@ public:
             });
         }
         for (const JunctionOccupant& occupant : state.junctions.occupants[at(lane)]) {
-            if (occupant.rear_m < v.front_m || !is_slow(occupant.slot)) continue;
+            if (occupant.rear_m < v.front_m || !is_crawling(occupant.slot)) continue;
             check_stop(occupant.rear_m - arrays_.standstill_gap_m[at(v.slot)], occupant.slot);
         }
     }
@@ -47,19 +47,20 @@ public:
     const KeptOutArea& result() const { return result_; }
 
 private:
-    bool is_slow(int slot) const { return arrays_.speed_mps[at(slot)] < kCrawlingSpeed_mps; }
+    bool is_crawling(int slot) const { return arrays_.speed_mps[at(slot)] < kCrawlingSpeed_mps; }
 
-    // Calls `visit` for each slow vehicle of connection `conflict.other` that is in the conflict area.
+    // Calls `visit` for each crawling vehicle of connection `conflict.other` that is in the conflict area.
     template <class Visit>
     void for_each_in_area(const Conflict& conflict, const Visit& visit) const {
         for (const JunctionOccupant& occupant : state_.junctions.occupants[at(conflict.other)]) {
             const bool is_in_area = occupant.front_m > conflict.other_from_m && occupant.rear_m < conflict.other_to_m;
-            if (is_in_area && is_slow(occupant.slot)) visit(occupant);
+            if (is_in_area && is_crawling(occupant.slot)) visit(occupant);
         }
     }
 
-    // Checks the areas that the candidate would block if it stopped at `place_m` to wait for the vehicle in `blocker`.
-    // The candidate would wait before the first area that completes a circle, so its stop there is checked, too.
+    // Checks the areas that the candidate would block if it stopped at `place_m`. `blocker`: slot of the vehicle that
+    // the candidate would wait for. If the candidate must not enter one of these areas, it stops before that area. This
+    // stop can close a cycle as well, so the function then checks it.
     void check_stop(double place_m, int blocker) {
         for (const Conflict& area : conflicts_) {
             if (area.from_m >= std::min(place_m, result_.from_m)) return;
@@ -74,8 +75,8 @@ private:
         }
     }
 
-    // Returns the slot of a slow vehicle that must still cross the area and that is in the path of the vehicle in
-    // `start`, directly or through further slow vehicles; -1: none.
+    // Returns the slot of a crawling vehicle that must still cross the area and that is in the path of the vehicle in
+    // `start`, directly or through further crawling vehicles; -1: none.
     int find_crossing(const Conflict& area, int start) const {
         constexpr std::size_t kMaxVehicles = 16;
         std::array<int, kMaxVehicles> found = {start};
@@ -93,7 +94,7 @@ private:
         return crossing_slot;
     }
 
-    // Calls `visit` with the slot of each slow vehicle in the path of the vehicle in `slot`: the vehicles in the
+    // Calls `visit` with the slot of each crawling vehicle in the path of the vehicle in `slot`: the vehicles in the
     // conflict areas ahead, and the leader of a queued vehicle.
     template <class Visit>
     void visit_path(int slot, const Visit& visit) const {
@@ -140,9 +141,9 @@ private:
 
 KeptOutArea area_to_keep_clear(const Model& model, const State& state, int lane, const Candidate& v) {
     if (model.rules.pass_blocker_ticks > 0) return {};
-    // A circle through the candidate contains a slow vehicle that must cross its path.
+    // A cycle that contains the candidate also contains a crawling vehicle on a conflicting connection.
     if (!state.junctions.with_stopped.has_any(state.plan.conflicting(lane))) return {};
-    return CircleSearch(model, state, lane, v).result();
+    return CycleSearch(model, state, lane, v).result();
 }
 
 }  // namespace stopline

@@ -1,6 +1,6 @@
-// Avoids deadlocks inside an intersection: keeps a vehicle out of a conflict area if its body would complete a circle
-// of slow vehicles that are in each other's path. No right of way can dissolve such a circle. The pass-blocker rule
-// (driver/traffic_rules.h) can: if it is on, this file has no effect.
+// Avoids deadlocks inside an intersection: keeps a vehicle out of a conflict area if it would stop across this area and
+// thereby close a cycle of crawling vehicles, each of which blocks the next one. No right of way can dissolve such a
+// cycle. The pass-blocker rule (driver/traffic_rules.h) can: if it is on, this file has no effect.
 #pragma once
 
 #include "sim/junction/candidate.h"
@@ -17,12 +17,13 @@ struct KeptOutArea {
     bool exists() const { return from_m < kNoWait_m; }
 };
 
-// Returns the nearest conflict area ahead of candidate `v` on connection `lane` whose entry would complete a circle:
-//   - Further ahead, a slow vehicle is in the path of the candidate. The candidate would stop behind it with its body
+// Returns the nearest conflict area ahead of candidate `v` on connection `lane` whose entry would close a cycle:
+//   - Further ahead, a crawling vehicle is in the path of the candidate. The candidate would stop behind it with its
+//   body
 //     across the area.
-//   - A vehicle that must still cross the area is in the path of the slow vehicle, directly or through further slow
-//     vehicles.
-// A vehicle is slow below kCrawlingSpeed_mps (1 m/s). Ignores areas before which the candidate can no longer stop.
+//   - A vehicle that must still cross the area is in the path of the crawling vehicle, directly or through further
+//     crawling vehicles.
+// A vehicle crawls below kCrawlingSpeed_mps (1 m/s). Ignores areas before which the candidate can no longer stop.
 KeptOutArea area_to_keep_clear(const Model& model, const State& state, int lane, const Candidate& v);
 
 }  // namespace stopline

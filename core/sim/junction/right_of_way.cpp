@@ -14,7 +14,7 @@
 //   - If neither connection has priority (movements of different signal groups), the vehicle that was the first to pass
 //     its stop line drives first. Exception: if only one of the two vehicles can stop before the area, the other one
 //     drives first. If two vehicles wait for each other, one of them proceeds (DeadlockResolution).
-//   - The vehicle does not complete a circle of vehicles that are in each other's path (deadlock_avoidance.h).
+//   - The vehicle does not close a cycle of vehicles that block each other (deadlock_avoidance.h).
 // The pass-blocker rule (driver/traffic_rules.h) lets a vehicle pass another vehicle that has been stopped inside the
 // intersection for a long time.
 #include "sim/junction/right_of_way.h"

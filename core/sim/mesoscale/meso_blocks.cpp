@@ -153,9 +153,9 @@ private:
         }
     }
 
-    // Keeps human drivers at rest until their reaction time since the start of their leader and the delay of the
-    // powertrain have passed (driver/human.h). If the lane sleeps, skips its first vehicle, as cap_aligning_vehicles()
-    // does. A waiting driver is not part of the standing queue, because it may also start after its leader has stopped
+    // Holds a stopped human driver until the sum of its start reaction time and the powertrain delay has passed since
+    // its leader started (driver/human.h). If the lane sleeps, its first vehicle already has a cap. While a driver of
+    // the lane waits, the lane has no standing queue, because this driver may start even if its leader has stopped
     // again.
     void cap_waiting_drivers(bool sleeps) {
         if (!v_.has_human_drivers) return;

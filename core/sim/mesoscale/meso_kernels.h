@@ -20,7 +20,7 @@ struct MesoStreams {
     const float *length, *end_speed;
     float *acceleration, *is_platoon_leader;
     const int *id, *policy;
-    const int* start_ticks;  // nullptr in runs without human drivers
+    const int* start_ticks;  // steps since the leader began to move; nullptr: no human drivers
 };
 
 // Constants of one step. SI units.
@@ -30,7 +30,7 @@ struct MesoStep {
     std::uint64_t driver_key;  // key of the random numbers of drivers, from driver_key()
     std::uint64_t tick;
     double slow_down_mps2;  // deceleration before a lower speed limit
-    // [policy] the same if the drivers have different decelerations; else nullptr
+    // [policy] deceleration before a lower speed limit; nullptr: all drivers have slow_down_mps2
     const double* slow_downs_mps2;
     double approach_share;  // a vehicle below the speed limit gains at most this share of (limit - speed) in a step
     // Part of its deviation from the braking curve that a vehicle corrects in one step. The braking curve leads to a

@@ -365,8 +365,8 @@ inline void follow(const FollowingModel& model, const MesoStep& step, const Foll
     }
 }
 
-// A model for which more versions of the kernels are compiled: for one and for two policies without acceleration
-// limits, and for policies without power limit.
+// A model for which more versions of the kernels are compiled: for exactly one and for two policies. These versions are
+// used only without acceleration limits. There is each one with and without power limit.
 template <class Following, class R>
 concept HasFastVersions = requires(const R& policy, const Following& model) {
     Following::of_two_policies(policy, model, model);

@@ -1,5 +1,5 @@
 // Deadlock avoidance of the reference engine: a vehicle does not enter a conflict area if its body would complete a
-// circle of slow vehicles that are in each other's path.
+// cycle of slow vehicles that block each other.
 #pragma once
 
 #include <algorithm>
@@ -47,7 +47,7 @@ private:
     }
 
     // Checks the areas that the candidate would block if it stopped at `place_m` behind `blocker`. Before the first
-    // area that completes a circle the candidate would stop, too.
+    // area that closes a cycle the candidate would stop, too.
     void check_stop(double place_m, Vehicle* blocker) {
         for (const Conflict& area : conflicts(c_.connection)) {
             const double stop_m = area.from_m - margin_m_;

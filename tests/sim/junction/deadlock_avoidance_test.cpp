@@ -1,5 +1,6 @@
-// Avoidance of deadlocks inside an intersection. Three vehicles from three sides stand inside, each in the path of the
-// one before it. A fourth vehicle would complete the circle if it drove on.
+// Avoidance of deadlocks inside an intersection. Three stopped vehicles from three sides are inside. Each of the first
+// two is blocked by the next one. A fourth vehicle would close the cycle if it drove on, because it would block the
+// third one.
 #include <gtest/gtest.h>
 
 #include <algorithm>

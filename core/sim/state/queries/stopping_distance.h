@@ -35,8 +35,8 @@ inline double emergency_braking_distance_m(const Model& model, double speed_mps)
     return 0.5 * square(speed_mps) / model.common_driver().cacc.deceleration_emergency_mps2;
 }
 
-// Returns true if a vehicle can stop within the distance with maximum braking. In full dynamics the distance includes a
-// response time: the brake lag plus the time in which the requested acceleration changes.
+// Returns true if a vehicle can stop within `distance_m` with maximum braking. In full dynamics, the vehicle first
+// drives on for a response time: the brake lag plus the time in which the requested acceleration changes.
 inline bool can_stop_within(const Model& model, double speed_mps, double distance_m) {
     constexpr double kResponse_s = 0.3;
     const double response_m = model.meso ? 0.0 : kResponse_s * speed_mps;

@@ -16,7 +16,7 @@ enum class YieldReason : std::uint8_t {
     merging,      // the vehicle follows another vehicle that merges ahead of it or is about to leave the conflict area
     stop_sign,    // every vehicle must stop at the stop line
     lane_change,  // the vehicle waits for a gap in the adjacent lane
-    deadlock,     // driving on would complete a circle of vehicles that are in each other's path
+    deadlock,     // driving on would close a cycle of vehicles that block each other
 };
 
 // The struct fills one cache line. A connection is a lane inside an intersection.
