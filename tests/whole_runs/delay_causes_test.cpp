@@ -216,6 +216,27 @@ TEST_F(DelayCauses, YieldingAtTheNextIntersectionDoesNotCount) {
     }
 }
 
+// The slot before a lane's first vehicle holds a copy of the leader beyond the lane. The yielding state in this slot is
+// not that of a vehicle and must not count: neither for an occupant that has its front on the exit lane, nor for one
+// that has its front exactly at the start of its connection.
+TEST_F(DelayCauses, YieldingStateBeforeTheFirstVehicleOfALaneDoesNotCount) {
+    const int connection = lane("c0r0_west_0_straight");
+    const double length_m = track_.model().graph.lanes[at(connection)].length_m;
+    place_stopped("c1r0_west_in_0", 1.0, "c1r0_west_0_straight");
+    place_stopped("c0r0_west_0_straight", 0.0);
+    for (const bool on_exit : {true, false}) {
+        const int slot = state().blocks[at(on_exit ? lane("c1r0_west_in_0") : connection)].first;
+        VehicleArrays& v = state().vehicles;
+        v.record[at(slot)].leader_id = v.id[at(slot)] + 1;
+        v.position_m[at(slot - 1)] = v.position_m[at(slot)] + 7.0;
+        v.length_m[at(slot - 1)] = v.length_m[at(slot)];
+        v.speed_mps[at(slot - 1)] = 0.0;
+        v.record[at(slot - 1)].yield_tick = static_cast<int>(state().tick);
+        const double front_m = v.position_m[at(slot)] + (on_exit ? length_m : 0.0);
+        EXPECT_FALSE(is_behind_yielding_vehicle(state(), connection, {slot, front_m, front_m - 4.0, 0})) << on_exit;
+    }
+}
+
 // In full dynamics vehicles crawl for some seconds while they close up to a queue. Other drivers must treat them as
 // stopped.
 TEST_F(DelayCauses, CrawlingBlockerCountsAsStopped) {

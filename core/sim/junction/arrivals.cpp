@@ -69,15 +69,18 @@ bool is_at_same_intersection(const State& state, int lane, int slot) {
 
 bool is_behind_yielding_vehicle(const State& state, int lane, const JunctionOccupant& occupant) {
     constexpr int kMaxQueue = 8;  // longest queue that is searched, in vehicles
+    const auto is_on = [&](int on, int slot) {
+        const LaneBlock& block = state.blocks[at(on)];
+        return slot >= block.first && slot < block.past_last();
+    };
     int slot = occupant.slot;
-    int current_lane = occupant.front_m > 0.0 ? lane : state.plan.lane(lane).origin;
+    int current_lane = is_on(lane, slot) ? lane : state.plan.lane(lane).origin;
+    if (!is_on(current_lane, slot)) return false;  // the front is on the exit lane
     for (int k = 0; k < kMaxQueue && is_blocked_by_leader(state, slot); ++k) {
         const LaneBlock& block = state.blocks[at(current_lane)];
         if (slot == block.first) {
             slot = leader_ahead(state, current_lane, slot, queue_look_ahead_m(state, slot)).slot;
-            const LaneBlock& connection_block = state.blocks[at(lane)];
-            const bool on_connection = slot >= connection_block.first && slot < connection_block.past_last();
-            if (!on_connection)
+            if (!is_on(lane, slot))
                 return slot >= 0 && is_at_same_intersection(state, lane, slot) && is_yielding(state, slot);
             current_lane = lane;
         } else {

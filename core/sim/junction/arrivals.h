@@ -33,7 +33,8 @@ double queue_look_ahead_m(const State& state, int slot);
 
 // Returns true if `occupant`, a vehicle on connection `lane`, is in a queue of slow vehicles, and a vehicle further
 // ahead in this queue yields. The yielding vehicle may also be on another connection from the same approach lane, but
-// only on the part of that connection that overlaps with `lane`.
+// only on the part of that connection that overlaps with `lane`. Returns false if the front of the occupant is on the
+// exit lane: the vehicles ahead of it are at the next intersection.
 bool is_behind_yielding_vehicle(const State& state, int lane, const JunctionOccupant& occupant);
 
 // Returns the time in s that a vehicle needs for a distance if it accelerates up to the speed limit. A vehicle above
