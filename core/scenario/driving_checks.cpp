@@ -53,11 +53,11 @@ void check_policies(const Scenario& scenario, Checker& check) {
         }
         const std::string field = "policies[" + policy.name + "].standstill_gap";
         const std::string value = "value " + short_text(policy.standstill_gap_m, unit("m")) + " is too small";
-        if (!scenario.is_meso() && policy.standstill_gap_m < kMinStandstillGap_m - kRounding) {
+        if (!scenario.is_meso()) {
+            if (policy.standstill_gap_m >= kMinStandstillGap_m - kRounding) continue;
             check.error(field, value + ": in full dynamics at least " + short_text(kMinStandstillGap_m, unit("m")) +
                                    ", because followers lose up to 1.3 m in a hard stop");
-        } else if (const double min_m = meso_min_gap_m(scenario, policy);
-                   scenario.is_meso() && policy.standstill_gap_m < min_m - kRounding) {
+        } else if (const double min_m = meso_min_gap_m(scenario, policy); policy.standstill_gap_m < min_m - kRounding) {
             check.error(field, value + ": with the mesoscale parameters '" + scenario.meso.name +
                                    "' vehicles come nearer by up to " + short_text(min_m, unit("m")));
         }

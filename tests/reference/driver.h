@@ -227,9 +227,9 @@ inline DriverRequest plan_request(const DriverModel& d, const GapPolicy& policy,
 
 // Returns the requested acceleration of a human driver: the intelligent driver model without V2V. `interaction` is the
 // reaction to the vehicles ahead. A platoon leader starts with the start-up profile. `exact`: the radar view, for the
-// braking that avoids a collision.
+// braking that avoids a collision. `growth_m`: desired gap minus standstill gap.
 inline DriverRequest plan_human_request(const DriverModel& d, const RoadView& road, const View& exact,
-                                        double interaction, double dt, Vehicle& v) {
+                                        double interaction, double growth_m, double dt, Vehicle& v) {
     const CaccSettings& c = d.settings.cacc;
     const IdmSettings& idm = d.settings.human.idm;
     const double speed_mps = v.speed_mps;
@@ -241,7 +241,8 @@ inline DriverRequest plan_human_request(const DriverModel& d, const RoadView& ro
                              : idm.acceleration_mps2 * (1.0 - idm_free_term(speed_mps, road.limit_mps) - interaction);
     if (v.end_speed_mps < kNoLimit)
         lowest_mps2 = std::min(lowest_mps2, slow_down_mps2(d, speed_mps, v.end_speed_mps, road.to_next_limit_m));
-    const double evasive_mps2 = std::min(emergency_mps2(c, speed_mps, exact), keep_room_mps2(c, speed_mps, 0.0, exact));
+    const double evasive_mps2 =
+        std::min(emergency_mps2(c, speed_mps, exact), keep_room_mps2(c, speed_mps, growth_m, exact));
     lowest_mps2 = std::min({lowest_mps2, evasive_mps2, road.demand_mps2});
     if (v.waits_to_start) lowest_mps2 = std::min(lowest_mps2, 0.0);
     return smooth_request(c, lowest_mps2, dt, v);

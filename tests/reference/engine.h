@@ -199,6 +199,12 @@ private:
         return road;
     }
 
+    // Returns the desired gap of a human driver minus the standstill gap.
+    double human_growth_m(const VehicleKind& kind, const Vehicle& v) const {
+        const double next_mps = std::max(v.speed_mps + v.acceleration_mps2 * w_.step_s, 0.0);
+        return std::max(law_gap(kind.policy, next_mps).gap_m - kind.standstill_gap_m, 0.0);
+    }
+
     // Returns the reaction of a human driver to the vehicles ahead on its lane and to the leader of the first of them:
     // the sum of the terms (s* / s)^2 of the intelligent driver model.
     double human_interaction(const VehicleKind& kind, const HumanTimes& times, const View& view, const Lane& lane,
@@ -227,8 +233,7 @@ private:
         double squares = 0.0;
         for (std::size_t n = 1; n <= views.size(); ++n) squares += 1.0 / static_cast<double>(n * n);
         const double factor = 1.0 / std::sqrt(squares);
-        const double next_mps = std::max(v.speed_mps + v.acceleration_mps2 * w_.step_s, 0.0);
-        const double growth_m = std::max(law_gap(kind.policy, next_mps).gap_m - standstill_m, 0.0);
+        const double growth_m = human_growth_m(kind, v);
         const DriverRandom random{driver_key(w_.scenario.seed), v.id};
         double sum = 0.0;
         for (const HumanView& exact : views) {
@@ -249,7 +254,9 @@ private:
         const double interaction = human_interaction(kind, times, view, lane, v);
         View exact = view;
         exact.acceleration_mps2 = exact.request_mps2 = leader.acceleration_mps2;
-        return plan_human_request(kind.driver, road, exact, interaction, w_.step_s, changed);
+        exact.gap_m -=
+            std::max(kind.vehicle.settings.brake_lag_s - 0.2, 0.0) * v.speed_mps;  // brakes that respond later
+        return plan_human_request(kind.driver, road, exact, interaction, human_growth_m(kind, v), w_.step_s, changed);
     }
 
     // Full dynamics: computes all requests from the state at the start of the step, then moves all vehicles.
