@@ -4,6 +4,7 @@
 
 #include "common/starvation_text.h"
 #include "common/text_table.h"
+#include "common/violation_text.h"
 #include "measure/steady_state.h"
 #include "runs/metrics/metric_tables.h"
 #include "runs/network/network_metrics.h"
@@ -48,21 +49,6 @@ std::string warnings_text(const NetworkReport& report) {
     return text;
 }
 
-std::string first_violation_text(const NetworkResult& f, const std::vector<std::string>& lanes) {
-    const Violation& first = f.violations.first;
-    if (first.time_s < 0.0) return "";
-    const std::string lane = first.lane < 0 ? "" : fmt::format(" on {}", lanes[static_cast<std::size_t>(first.lane)]);
-    std::string what = fmt::format("vehicle {} enters on red{}", first.vehicle, lane);
-    if (first.kind == Violation::Kind::overlap)
-        what = fmt::format("vehicle {}{} overlaps vehicle {}", first.vehicle, lane, first.other);
-    if (first.kind == Violation::Kind::conflict)
-        what = fmt::format("vehicle {}{} is in the same conflict area as vehicle {}", first.vehicle, lane, first.other);
-    return fmt::format(
-        "First violation of {}: at {:.1f} s {}.\n"
-        "To see it: run again with --record FILE, make a page with stopline-replay, open PAGE#t={:.0f}&vehicle={}\n",
-        f.population, first.time_s, what, first.time_s, first.vehicle);
-}
-
 // Returns one console table of the metrics and its notes.
 struct TableWithNotes {
     std::string table;
@@ -88,7 +74,7 @@ std::string network_text(const NetworkReport& report) {
     std::string first_violations;
     for (const NetworkResult& f : report.populations) {
         runs_with_violations += f.violations.none() ? 0 : 1;
-        first_violations += first_violation_text(f, report.lanes);
+        first_violations += first_violation_text(f.population, f.violations, report.lanes);
     }
     const std::string verdict =
         runs_with_violations == 0
