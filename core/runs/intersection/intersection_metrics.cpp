@@ -90,7 +90,7 @@ MetricList<MeasuredIntersection> discharge_metrics() {
          .console = {.heading = "per green",
                      .decimals = 2,
                      .note = "vehicles that pass a stop line per lane in one green and its yellow"},
-         .figure = {.axis = "vehicles per green and lane", .sweep = {.change = "gain over {} [%]"}}},
+         .figure = {.axis = "vehicles per green and lane", .sweep = {.change = "vehicles gained over {} [%]"}}},
         {.column = "saturated_greens",
          .extent = "window",
          .meaning = "number of greens, summed over the lanes, in which five or more vehicles of a queue pass. Only "

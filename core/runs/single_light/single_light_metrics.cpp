@@ -243,7 +243,7 @@ const MetricList<MeasuredGreen>& green_metrics() {
                              "count",
                      .value = passed_text},
          .figure = {.axis = "vehicles passed in green time K",
-                    .sweep = {.change = "gain over {} [%]", .name = "vehicles passed in the last green"}}},
+                    .sweep = {.change = "vehicles gained over {} [%]", .name = "vehicles passed in the last green"}}},
         {.column = "baseline",
          .meaning = "name of the baseline population; empty without one",
          .value = [](const MeasuredGreen& run) { return run.baseline() == nullptr ? "" : run.baseline()->name; },
