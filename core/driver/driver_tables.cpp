@@ -16,7 +16,7 @@ DriverTables compile_driver(const DriverSettings& settings) {
     t.cacc = settings.cacc;
     t.stop = settings.stop;
     const IdmParameters idm = idm_parameters(settings.human.idm, 0.0, 0.0);
-    t.human = {idm.acceleration_mps2, idm.closing_s2pm};
+    t.human = {std::min(idm.acceleration_mps2, settings.cacc.acceleration_max_mps2), idm.closing_s2pm};
     t.speed_gain_1ps = free.speed_gain_1ps;
     t.deceleration_mps2 = free.deceleration_mps2;
     const double top_mps = std::max(free.speed_mps.back(), 1.0);

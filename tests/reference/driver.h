@@ -231,14 +231,13 @@ inline DriverRequest plan_request(const DriverModel& d, const GapPolicy& policy,
 inline DriverRequest plan_human_request(const DriverModel& d, const RoadView& road, const View& exact,
                                         double interaction, double growth_m, double dt, Vehicle& v) {
     const CaccSettings& c = d.settings.cacc;
-    const IdmSettings& idm = d.settings.human.idm;
+    const double highest_mps2 = std::min(d.settings.human.idm.acceleration_mps2, c.acceleration_max_mps2);
     const double speed_mps = v.speed_mps;
-    const double follow = interaction > 0.0 ? idm.acceleration_mps2 * (1.0 - interaction) : kNoLimit;
+    const double follow = interaction > 0.0 ? highest_mps2 * (1.0 - interaction) : kNoLimit;
     const double free_mps2 = free_acceleration_mps2(d, speed_mps, road.limit_mps);
     v.is_platoon_leader = v.is_platoon_leader && follow > free_mps2;
-    double lowest_mps2 = v.is_platoon_leader
-                             ? free_mps2
-                             : idm.acceleration_mps2 * (1.0 - idm_free_term(speed_mps, road.limit_mps) - interaction);
+    double lowest_mps2 =
+        v.is_platoon_leader ? free_mps2 : highest_mps2 * (1.0 - idm_free_term(speed_mps, road.limit_mps) - interaction);
     if (v.end_speed_mps < kNoLimit)
         lowest_mps2 = std::min(lowest_mps2, slow_down_mps2(d, speed_mps, v.end_speed_mps, road.to_next_limit_m));
     const double evasive_mps2 =

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "driver/human.h"
 #include "scenario/schema/field_rows.h"
 #include "scenario/schema/fields.h"
@@ -194,7 +196,8 @@ const Table& human_table() {
     static const Table table = make_table<S>(
         "human drivers",
         {
-            section<&S::idm>("idm", idm_table, "acceleration of human drivers"),
+            section<&S::idm>("idm", idm_table,
+                             "acceleration of human drivers; in full dynamics at most cacc.acceleration_max"),
             number<&S::start_reaction_s>(
                 "start_reaction", "s", {0, 2},
                 "mean reaction time to the start of the vehicle ahead, or to the start of green"),
@@ -210,7 +213,14 @@ const Table& human_table() {
                                                    "full dynamics: number of vehicles ahead to which a driver reacts"),
         },
         [](const S& s, Checker& check) {
-            if (s.reaction_spread_s > s.reaction_s) check.error("reaction_spread", "must be at most reaction");
+            // The reaction time for the design of roads (AASHTO, A Policy on Geometric Design of Highways and Streets).
+            constexpr double kLongest_s = 2.5;
+            const std::string both =
+                fmt::format("reaction is {:g} s and reaction_spread {:g} s: ", s.reaction_s, s.reaction_spread_s);
+            if (s.reaction_spread_s > s.reaction_s)
+                check.error("reaction_spread", both + "the spread must be at most the mean");
+            if (s.reaction_s + s.reaction_spread_s > kLongest_s)
+                check.error("reaction_spread", both + fmt::format("their sum must be at most {:g} s", kLongest_s));
         });
     return table;
 }
