@@ -140,7 +140,7 @@ private:
 }  // namespace
 
 KeptOutArea area_to_keep_clear(const Model& model, const State& state, int lane, const Candidate& v) {
-    if (model.rules.pass_blocker_ticks > 0) return {};
+    if (!model.rules.keep_clear || model.rules.pass_blocker_ticks > 0) return {};
     // A cycle that contains the candidate also contains a crawling vehicle on a conflicting connection.
     if (!state.junctions.with_stopped.has_any(state.plan.conflicting(lane))) return {};
     return CycleSearch(model, state, lane, v).result();

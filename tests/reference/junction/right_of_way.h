@@ -171,7 +171,7 @@ private:
         const bool checks_committed = was_waiting || w_.is_imported;
         const bool has_others = has_crossing_occupants(connection);
         if (!has_others && !checks_committed && (has_gap || !connection.yields)) return {};
-        const bool avoids_deadlocks = w_.scenario.rules.pass_blocker_greens == 0.0;
+        const bool avoids_deadlocks = w_.model.rules.keep_clear && w_.scenario.rules.pass_blocker_greens == 0.0;
         const KeptOutArea kept_out = avoids_deadlocks ? DeadlockAvoidance(w_, c).area() : KeptOutArea{};
         if (kept_out.crossing != nullptr && c.is_stopped()) has_gap = false;
         Wait behind;  // nearest place behind a vehicle that the candidate may follow
