@@ -1,7 +1,7 @@
 // Avoids deadlocks inside an intersection: keeps a vehicle out of a conflict area if it would stop across this area and
 // thereby close a cycle of crawling vehicles, each of which blocks the next one. No right of way can dissolve such a
-// cycle. This file is a part of the keep-clear rule and has no effect if that rule is off. It has no effect either if the
-// pass-blocker rule is on, because that rule can dissolve such a cycle. driver/traffic_rules.h has both rules.
+// cycle. This file is a part of the keep-clear rule and has no effect if that rule is off. It has no effect either if
+// the pass-blocker rule is on, because that rule can dissolve such a cycle. driver/traffic_rules.h has both rules.
 #pragma once
 
 #include "sim/junction/candidate.h"

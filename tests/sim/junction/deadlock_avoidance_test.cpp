@@ -33,7 +33,8 @@ protected:
 
     static Model empty_model() {
         const std::string fidelity = std::string("fidelity=") + GetParam();
-        Model model = build_model(load_scenario(STOPLINE_SOURCE_DIR "/scenarios/intersection.yaml", {fidelity}), 0);
+        Model model = build_model(
+            load_scenario(STOPLINE_SOURCE_DIR "/scenarios/intersection.yaml", {fidelity, "rules.keep_clear=on"}), 0);
         for (DemandPlan::Inlet& inlet : model.demand.inlets) inlet.vehicles = 0;
         return model;
     }
@@ -89,7 +90,7 @@ protected:
 INSTANTIATE_TEST_SUITE_P(BothFidelities, DeadlockAvoidance, testing::Values("full", "meso"),
                          [](const auto& tested) { return std::string(tested.param); });
 
-TEST_P(DeadlockAvoidance, KeepsTheLastVehicleOutOfTheCircle) {
+TEST_P(DeadlockAvoidance, KeepsTheLastVehicleOutOfTheCycle) {
     const KeptOutArea area = kept_out_area();
     EXPECT_EQ(area.from_m, entered().from_m);
     EXPECT_EQ(area.crossing_slot, static_cast<int>(slot_on("east_0_straight")));
@@ -109,8 +110,13 @@ TEST_P(DeadlockAvoidance, TheLastVehicleWaitsForTheOneThatMustCross) {
     EXPECT_LT(stop->position_m, entered().from_m);
 }
 
-TEST_P(DeadlockAvoidance, AnOpenChainIsNoCircle) {
+TEST_P(DeadlockAvoidance, AnOpenChainIsNoCycle) {
     vehicles().speed_mps[slot_on("south_0_straight")] = 1.5;  // this vehicle drives on
+    EXPECT_FALSE(kept_out_area().exists());
+}
+
+TEST_P(DeadlockAvoidance, BelongsToTheKeepClearRule) {
+    const_cast<Model&>(track_.model()).rules.keep_clear = false;
     EXPECT_FALSE(kept_out_area().exists());
 }
 
