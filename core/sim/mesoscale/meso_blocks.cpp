@@ -79,7 +79,6 @@ public:
           v_(state.vehicles),
           part_(part),
           lane_(lane),
-          driver_key_(driver_key(model.seed)),
           block_(state.blocks[at(lane)]),
           plan_(state.plan.lane(lane)),
           stop_slot_(state.stop_lines.stop_slot[at(lane)]),
@@ -159,6 +158,7 @@ private:
     // again.
     void cap_waiting_drivers(bool sleeps) {
         if (!v_.has_human_drivers) return;
+        const std::uint64_t key = driver_key(model_.seed);
         for (int slot = block_.first; slot < block_.past_last(); ++slot) {
             const std::size_t i = at(slot);
             const DriverPlan& driver = model_.driver_of(v_.policy[i]);
@@ -167,7 +167,7 @@ private:
             v_.start_ticks[i] = next_start_ticks(v_.start_ticks[i], v_.speed_mps[i], v_.speed_mps[i - 1],
                                                  gap_m - static_cast<double>(v_.standstill_gap_m[i]));
             if (sleeps && slot == block_.first) continue;
-            const double reaction_s = reaction_time_s(driver.human, keyed_uniform(driver_key_, v_.id[i], 0));
+            const double reaction_s = reaction_time_s(driver.human, keyed_uniform(key, v_.id[i], 0));
             const double wait_s = start_reaction_s(driver.human, reaction_s) + model_.powertrain_delay_s;
             if (!waits_to_start(v_.start_ticks[i], v_.speed_mps[i], wait_s, model_.step_s)) continue;
             cap_speed(slot, 0.0);
@@ -234,7 +234,6 @@ private:
     VehicleArrays& v_;
     Partition& part_;
     int lane_;
-    std::uint64_t driver_key_;
     const LaneBlock& block_;
     const LanePlan& plan_;
     int stop_slot_;
