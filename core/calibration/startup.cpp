@@ -162,9 +162,9 @@ double idm_deviation_mps(const StartupCurve& curve, double acceleration_mps2, do
     const IdmParameters idm = idm_parameters({.acceleration_mps2 = acceleration_mps2}, 0.0, 0.0);
     StartupRun run;
     double speed_mps = 0.0;
-    double time_s = 0.0;
+    long step = 0;
     for (const double at_s : curve.time_s) {
-        for (; time_s + 0.5 * kStep_s < at_s; time_s += kStep_s)
+        for (const long until = std::lround(at_s / kStep_s); step < until; ++step)
             speed_mps += kStep_s * idm_acceleration_mps2(idm, speed_mps, 0.0, kNoLeaderGap_m, desired_mps);
         run.speed_mps.push_back(speed_mps);
     }
