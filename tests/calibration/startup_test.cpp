@@ -1,6 +1,8 @@
-// Tests of the time intervals ('exits') in which a simulated start leaves the band of measured starts.
+// Tests of the start-up calibration: the fit of human drivers, and the time intervals ('exits') in which a simulated
+// start leaves the band of measured starts.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "calibration/startup.h"
@@ -45,6 +47,22 @@ TEST(Startup, FindsExitsBetweenMeasuredPoints) {
 }
 
 // The simulated start is faster than the measured mean before each of the first two gear changes.
+// The closed form of the intelligent driver model for a high desired speed is v = a t. The fit of a curve of the model
+// returns the acceleration of this curve.
+TEST(Startup, FitsTheAccelerationOfHumanDrivers) {
+    EXPECT_NEAR(fit_idm_acceleration_mps2(curve(), 1e3), 2.0, 1e-3);
+    EXPECT_NEAR(idm_deviation_mps(curve(), 1.5, 1e3), 0.5 * std::sqrt((1.0 + 4.0 + 9.0) / 4.0), 1e-6);
+}
+
+// The shipped driver has the acceleration that the fit to the shipped starts gives.
+TEST(Startup, ShippedDriverHasTheFittedAccelerationOfHumanDrivers) {
+    const StartupCurve starts =
+        load_startup_curve(std::string(STOPLINE_SOURCE_DIR) + "/data/startup/kit_curve_leader50.csv");
+    const Scenario scenario = load_scenario(STOPLINE_SOURCE_DIR "/scenarios/single_light.yaml");
+    const double fitted_mps2 = fit_idm_acceleration_mps2(starts, scenario.network.approach.speed_limit_mps);
+    EXPECT_NEAR(scenario.driver.human.idm.acceleration_mps2, fitted_mps2, 0.005);
+}
+
 TEST(Startup, ReportNamesTheExitsOfTheShippedStartAndTheirCauses) {
     const StartupReport report =
         report_startup(load_scenario(STOPLINE_SOURCE_DIR "/scenarios/single_light.yaml"),
