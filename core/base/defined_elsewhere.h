@@ -6,5 +6,5 @@
 #define STOPLINE_DEFINED_ELSEWHERE(Type, name) \
     [] {                                       \
         extern const Type name;                \
-        return &name;                          \
+        return &(name);                        \
     }()

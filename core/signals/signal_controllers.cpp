@@ -15,6 +15,7 @@ namespace stopline {
 // Returns the controllers. The order is the order in lists for the user.
 static std::vector<const SignalController*>& controllers() {
     static std::vector<const SignalController*> all{
+        // NOLINTBEGIN(readability-identifier-naming): the macro declares constants of the namespace inside a function.
         STOPLINE_DEFINED_ELSEWHERE(SignalController, kFixedTimeController),
     };
     return all;
@@ -86,6 +87,7 @@ SignalPlan fixed_time_plan(int first_group, std::vector<GroupProgramme> programm
 SignalPlan fixed_time_plan(std::vector<int> groups, std::vector<GroupProgramme> programmes) {
     SignalPlan plan;
     plan.controller = STOPLINE_DEFINED_ELSEWHERE(SignalController, kFixedTimeController);
+    // NOLINTEND(readability-identifier-naming)
     plan.groups = std::move(groups);
     plan.nominal_cycle_ticks = programmes.at(0).cycle_ticks();
     plan.programmes = std::move(programmes);

@@ -11,6 +11,7 @@ namespace stopline {
 // Returns the laws. The order is the order in lists for the user.
 static std::vector<const GapLaw*>& laws() {
     static std::vector<const GapLaw*> all{
+        // NOLINTBEGIN(readability-identifier-naming): the macro declares constants of the namespace inside a function.
         STOPLINE_DEFINED_ELSEWHERE(GapLaw, kConstantDistanceLaw),
         STOPLINE_DEFINED_ELSEWHERE(GapLaw, kConstantTimeLaw),
         STOPLINE_DEFINED_ELSEWHERE(GapLaw, kSwitchTimeGapLaw),
@@ -18,6 +19,7 @@ static std::vector<const GapLaw*>& laws() {
         STOPLINE_DEFINED_ELSEWHERE(GapLaw, kFormulaLaw),
         STOPLINE_DEFINED_ELSEWHERE(GapLaw, kTableLaw),
         STOPLINE_DEFINED_ELSEWHERE(GapLaw, kHumanLaw),
+        // NOLINTEND(readability-identifier-naming)
     };
     return all;
 }

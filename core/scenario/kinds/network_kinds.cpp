@@ -11,11 +11,13 @@ namespace stopline {
 // Returns the kinds. The order is the order in lists for the user.
 static std::vector<const NetworkKind*>& kinds() {
     static std::vector<const NetworkKind*> all{
+        // NOLINTBEGIN(readability-identifier-naming): the macro declares constants of the namespace inside a function.
         STOPLINE_DEFINED_ELSEWHERE(NetworkKind, kApproachKind),
         STOPLINE_DEFINED_ELSEWHERE(NetworkKind, kIntersectionKind),
         STOPLINE_DEFINED_ELSEWHERE(NetworkKind, kGridKind),
         STOPLINE_DEFINED_ELSEWHERE(NetworkKind, kStreetsKind),
         STOPLINE_DEFINED_ELSEWHERE(NetworkKind, kSumoKind),
+        // NOLINTEND(readability-identifier-naming)
     };
     return all;
 }
