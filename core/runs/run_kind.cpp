@@ -14,9 +14,10 @@ namespace stopline {
 
 static std::span<const RunKind* const> run_kinds() {
     static const std::array kKinds{
-        STOPLINE_DEFINED_ELSEWHERE(RunKind, kSingleLightRun),
-        STOPLINE_DEFINED_ELSEWHERE(RunKind, kIntersectionRun),
+        // NOLINTBEGIN(readability-identifier-naming): the macro declares constants of the namespace inside a function.
+        STOPLINE_DEFINED_ELSEWHERE(RunKind, kSingleLightRun), STOPLINE_DEFINED_ELSEWHERE(RunKind, kIntersectionRun),
         STOPLINE_DEFINED_ELSEWHERE(RunKind, kNetworkRun),
+        // NOLINTEND(readability-identifier-naming)
     };
     return kKinds;
 }

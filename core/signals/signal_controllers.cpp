@@ -17,6 +17,7 @@ static std::vector<const SignalController*>& controllers() {
     static std::vector<const SignalController*> all{
         // NOLINTBEGIN(readability-identifier-naming): the macro declares constants of the namespace inside a function.
         STOPLINE_DEFINED_ELSEWHERE(SignalController, kFixedTimeController),
+        // NOLINTEND(readability-identifier-naming)
     };
     return all;
 }
@@ -86,8 +87,8 @@ SignalPlan fixed_time_plan(int first_group, std::vector<GroupProgramme> programm
 
 SignalPlan fixed_time_plan(std::vector<int> groups, std::vector<GroupProgramme> programmes) {
     SignalPlan plan;
+    // NOLINTNEXTLINE(readability-identifier-naming)
     plan.controller = STOPLINE_DEFINED_ELSEWHERE(SignalController, kFixedTimeController);
-    // NOLINTEND(readability-identifier-naming)
     plan.groups = std::move(groups);
     plan.nominal_cycle_ticks = programmes.at(0).cycle_ticks();
     plan.programmes = std::move(programmes);

@@ -35,9 +35,9 @@ struct MetricGroup {
     std::vector<DrawnMetric> drawn;    // all metrics in CSV tables
     std::vector<std::string> no_mean;  // columns of sweeps whose means over seeds have no meaning
     // Returns the names of the columns of sweeps, after the seed.
-    std::vector<std::string> (*sweep_columns)(const Scenario& scenario);
+    std::vector<std::string> (*sweep_columns)(const Scenario& scenario) = nullptr;
     // Returns the metrics for stopline-run --list. A null `scenario` gives those of all scenarios.
-    std::vector<ListedMetric> (*list)(const Scenario* scenario);
+    std::vector<ListedMetric> (*list)(const Scenario* scenario) = nullptr;
 };
 
 // Returns all groups, in the order of scenarios/COLUMNS.md.

@@ -27,7 +27,7 @@ const MetricList<MeasuredLight>& single_light_metrics();
 
 // The finished run of one population, up to the end of one green time of `measure.green`.
 struct MeasuredGreen {
-    const SingleLightReport* report;  // null in sweeps, which run one population at a time
+    const SingleLightReport* report = nullptr;  // null in sweeps, which run one population at a time
     const Scenario& scenario;
     const PopulationSummary& summary;
     std::size_t green = 0;  // index in measure.green
