@@ -6,7 +6,7 @@
 
 namespace stopline::reference_engine {
 
-// What a driver sees of its leader.
+// HumanView is what a driver sees of its leader.
 struct HumanView {
     double gap_m = 0.0;
     double closing_mps = 0.0;

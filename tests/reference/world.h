@@ -196,14 +196,13 @@ struct Situations {
     std::int64_t start_messages = 0;    // start messages received
     std::int64_t entered_late = 0;      // vehicles that found no room when they were due
     std::int64_t exited = 0;
-    std::int64_t held_at_green = 0;      // vehicle steps in which the keep-clear rule holds a vehicle
-    std::int64_t deadlocks = 0;          // steps in which slow vehicles waited for each other in a cycle
-    std::int64_t deadlocks_avoided = 0;  // vehicle steps of vehicles that keep out of a conflict area
-    std::int64_t yielded = 0;            // vehicles that began to wait before a conflict area
-    std::int64_t gaps_accepted = 0;      // vehicles that accepted a gap between vehicles with priority
-    std::int64_t gaps_refused = 0;       // vehicle steps in which a vehicle with priority arrives too soon
-    std::int64_t merged = 0;             // vehicle steps in which a vehicle follows one that merges ahead of it
-    std::int64_t stop_signs = 0;         // vehicles that stopped at a stop sign
+    std::int64_t held_at_green = 0;  // vehicle steps in which the keep-clear rule holds a vehicle
+    std::int64_t deadlocks = 0;      // steps in which slow vehicles waited for each other in a cycle
+    std::int64_t yielded = 0;        // vehicles that began to wait before a conflict area
+    std::int64_t gaps_accepted = 0;  // vehicles that accepted a gap between vehicles with priority
+    std::int64_t gaps_refused = 0;   // vehicle steps in which a vehicle with priority arrives too soon
+    std::int64_t merged = 0;         // vehicle steps in which a vehicle follows one that merges ahead of it
+    std::int64_t stop_signs = 0;     // vehicles that stopped at a stop sign
     std::int64_t mandatory_changes = 0;
     std::int64_t discretionary_changes = 0;
     std::int64_t alignments = 0;      // vehicle steps in which a vehicle aligns with a gap in the adjacent lane
@@ -224,7 +223,6 @@ struct Situations {
                                                 &Situations::exited,
                                                 &Situations::held_at_green,
                                                 &Situations::deadlocks,
-                                                &Situations::deadlocks_avoided,
                                                 &Situations::yielded,
                                                 &Situations::gaps_accepted,
                                                 &Situations::gaps_refused,

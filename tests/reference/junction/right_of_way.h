@@ -181,10 +181,8 @@ private:
             const bool is_far = places.before_m(conflict) - c.front_m > places.decision_m;
             const bool is_beyond_decision = is_far && !places.is_line();
             if (is_beyond_decision && !w_.is_imported) break;
-            if (conflict.from_m >= kept_out.from_m && !is_beyond_decision) {
-                ++w_.situations.deadlocks_avoided;
+            if (conflict.from_m >= kept_out.from_m && !is_beyond_decision)
                 return nearer({places.at_m(conflict), kept_out.crossing, WaitReason::deadlock}, behind);
-            }
             if (merges) {
                 if (!is_beyond_decision) behind = nearer(behind, merging_wait(c, conflict, was_waiting));
             } else if (const Wait wait = area_wait(c, conflict, places, was_waiting, is_far); wait.exists()) {
