@@ -158,14 +158,14 @@ double rms_deviation_mps(const StartupCurve& curve, const StartupRun& run) {
 }
 
 double idm_deviation_mps(const StartupCurve& curve, double acceleration_mps2, double desired_mps) {
-    constexpr double kStep_s = 0.01;
+    constexpr double kIdmStep_s = 0.01;
     const IdmParameters idm = idm_parameters({.acceleration_mps2 = acceleration_mps2}, 0.0, 0.0);
     StartupRun run;
     double speed_mps = 0.0;
     long step = 0;
     for (const double at_s : curve.time_s) {
-        for (const long until = std::lround(at_s / kStep_s); step < until; ++step)
-            speed_mps += kStep_s * idm_acceleration_mps2(idm, speed_mps, 0.0, kNoLeaderGap_m, desired_mps);
+        for (const long until = std::lround(at_s / kIdmStep_s); step < until; ++step)
+            speed_mps += kIdmStep_s * idm_acceleration_mps2(idm, speed_mps, 0.0, kNoLeaderGap_m, desired_mps);
         run.speed_mps.push_back(speed_mps);
     }
     return rms_deviation_mps(curve, run);
