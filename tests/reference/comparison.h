@@ -41,11 +41,6 @@ struct Difference {
 
 struct Comparison {
     std::optional<Difference> difference;
-    // True: the first difference is a decision of the keep-clear rule in a step in which core/sim reads a slot that no
-    // longer holds the same vehicle. core/sim remembers the vehicle that stops at a line by its slot
-    // (StopLines::stop_slot), also in the next step, until it decides for that lane again. But slots move when vehicles
-    // leave, enter or change lanes. This is a known fault of core/sim; the run ends here and proves nothing.
-    bool has_stale_slot = false;
     std::string uncovered_event;  // the event that the reference engine does not cover, at which the run ended
     Situations situations;
     double max_position_m = 0.0;  // largest difference of a position
@@ -83,15 +78,9 @@ public:
         const std::int64_t steps = ticks_in(scenario_.duration_s, model_.step_s);
         compare_vehicles();
         while (engine_.tick() < steps && !result_.difference && engine_.uncovered_event().empty()) {
-            const bool has_stale_slot = has_stale_stop_slot();
             simulation_.step();
             engine_.step();
             compare_holds();
-            if (result_.difference && has_stale_slot) {
-                result_.difference.reset();
-                result_.has_stale_slot = true;
-                break;
-            }
             compare_vehicles();
             compare_passages();
         }
@@ -105,15 +94,6 @@ private:
     void compare(const char* what, int lane, int vehicle, double simulated, double reference, double tolerance) {
         if (result_.difference || std::abs(simulated - reference) <= tolerance) return;
         result_.difference = {engine_.tick(), engine_.time_s(), what, lane, vehicle, simulated, reference};
-    }
-
-    // Returns true if the slot of a vehicle that stops at a line now holds another vehicle.
-    bool has_stale_stop_slot() const {
-        const State& state = simulation_.state();
-        return std::any_of(engine_.lanes().begin(), engine_.lanes().end(), [&](const Lane& lane) {
-            const int slot = state.stop_lines.stop_slot[at(lane.number)];
-            return slot >= 0 && state.vehicles.id[at(slot)] != lane.stop_id;
-        });
     }
 
     // Compares for each lane the vehicle that the keep-clear rule holds.

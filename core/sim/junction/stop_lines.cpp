@@ -171,6 +171,15 @@ const ExitRoom& exit_room(const Model& model, State& state, int exit) {
     return room;
 }
 
+// Returns true if the vehicle in `slot` is on the approach lane `lane` and stops at its line by the latest decision for
+// this lane. This is the decision of the present step if the lane comes earlier in the order of lanes, and otherwise
+// that of an earlier step. Slots may have changed since then, so the vehicle is identified by its id.
+bool stops_at_line(const State& state, int lane, int slot) {
+    const LaneBlock& block = state.blocks[at(lane)];
+    return slot >= block.first && slot < block.past_last() &&
+           state.vehicles.id[at(slot)] == state.stop_lines.lines[at(lane)].stop_id;
+}
+
 // Returns true if `occupant`, a vehicle on connection `conflict.other`, must leave the conflict area before vehicles of
 // the conflicting connection may start. This is the case if the occupant is in the area. It is also the case if the
 // occupant is still before the area, its own signal is red, and the occupant does not stop at its stop line: it has
@@ -180,7 +189,7 @@ bool must_clear_first(const State& state, const Conflict& conflict, const Juncti
     if (occupant.front_m > conflict.other_from_m) return true;
     const int origin = state.plan.lane(conflict.other).origin;
     const int group = state.plan.signal_group_for(origin, conflict.other);
-    return state.signals.lights[at(group)] == Light::red && occupant.slot != state.stop_lines.stop_slot[at(origin)];
+    return state.signals.lights[at(group)] == Light::red && !stops_at_line(state, origin, occupant.slot);
 }
 
 // Returns the slot of a stopped vehicle from a crossing street that must clear `connection` first; -1: none. Ignores
@@ -403,6 +412,7 @@ void decide_stop_lines(const Model& model, State& state, Partition& part) {
         if (held_slot >= 0 || line.keep_clear_vehicle >= 0)
             record_keep_clear_use(model, state, part, index, held_slot, line);
         state.stop_lines.stop_slot[at(index)] = stop_slot;
+        line.stop_id = stop_slot < 0 ? -1 : state.vehicles.id[at(stop_slot)];
         list_approaching(model, state, index);
     }
 }

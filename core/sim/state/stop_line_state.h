@@ -13,6 +13,9 @@ struct StopLineState {
     // It is then no violation if this vehicle overruns the line.
     bool may_overrun = false;
     int keep_clear_vehicle = -1;  // id of the vehicle that the keep-clear rule holds at green; -1: none
+    // Id of the vehicle that stops at the line by the latest decision for this lane, whatever the reason; -1: none. It
+    // is the vehicle in StopLines::stop_slot at the time of that decision. Its slot may have changed since then.
+    int stop_id = -1;
 };
 
 // The reason why the keep-clear rule holds a vehicle at a green signal.
