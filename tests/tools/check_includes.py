@@ -27,6 +27,7 @@ ALLOWED = {
     "vehicle": ["base"],
     "driver": ["base"],
     "spacing_laws": ["base", "driver"],
+    "string_stability": ["base", "driver"],
     "signals": ["base", "network"],
     "demand": ["base", "network"],
     "sumo_import": ["base", "network", "demand", "signals"],
