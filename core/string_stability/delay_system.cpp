@@ -32,11 +32,19 @@ DelaySystem::DelaySystem(int states, int inputs) : states_(states), inputs_(inpu
     }
 }
 
+void DelaySystem::check(int row, int column, int columns) const {
+    if (row < 0 || row >= states_ || column < 0 || column >= columns) {
+        throw std::logic_error("a DelaySystem has no such state or input");
+    }
+}
+
 void DelaySystem::add_state(int row, int state, double gain, double delay_s) {
+    check(row, state, states_);
     if (gain != 0.0) state_terms_.push_back({row, state, gain, delay_s});
 }
 
 void DelaySystem::add_input(int row, int input, double gain, double delay_s) {
+    check(row, input, inputs_);
     if (gain != 0.0) input_terms_.push_back({row, input, gain, delay_s});
 }
 

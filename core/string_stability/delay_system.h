@@ -36,6 +36,8 @@ private:
         double delay_s;
     };
 
+    // Throws std::logic_error if the row is not a state, or if `column` is not below `columns`.
+    void check(int row, int column, int columns) const;
     std::complex<double> characteristic(std::complex<double> s) const;
 
     int states_;

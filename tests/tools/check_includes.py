@@ -45,7 +45,7 @@ ALLOWED = {
     "scenario": SIM_BELOW + ["sumo_import", "sim/state/model.h", "sim/mesoscale/following_families.h"],
     "record": ["base", "network", "signals", "sim/*"],
     "reference": ["base"],
-    "runs": SIM_BELOW + ["sim/*", "measure", "scenario"],
+    "runs": SIM_BELOW + ["string_stability", "sim/*", "measure", "scenario"],
     "sweeps": ["base", "measure", "scenario", "runs"],
     "calibration": ["base", "driver", "measure", "scenario", "sim/*", "runs", "sweeps"],
     "figures": ["base", "network", "measure", "scenario", "sim/*", "reference", "runs", "sweeps", "calibration"],

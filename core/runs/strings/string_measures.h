@@ -1,0 +1,60 @@
+// Measures of string stability from the motion of a platoon. Position 0 is the platoon leader, position 1 its first
+// follower.
+#pragma once
+
+#include <complex>
+#include <cstddef>
+#include <vector>
+
+#include "runs/strings/platoon_run.h"
+
+namespace stopline {
+
+// Measures of one vehicle during a manoeuvre. L2 is the root of the sum of squares, L-infinity the largest absolute
+// value. A ratio compares a vehicle with its leader or with the platoon leader.
+struct PositionMeasures {
+    double l2_mps2 = 0.0;    // root mean square of the acceleration
+    double linf_mps2 = 0.0;  // largest absolute acceleration
+    double l2_ratio = 0.0;   // NaN for the platoon leader, as all other ratios and gaps
+    double linf_ratio = 0.0;
+    double l2_from_head = 0.0;
+    double linf_from_head = 0.0;
+    double gap_error_m = 0.0;     // largest absolute gap error
+    double smallest_gap_m = 0.0;  // smallest net gap
+    double used_share = 0.0;      // share of the standstill gap that was used up: 1 - smallest gap / standstill gap, >= 0
+    double largest_jerk_mps3 = 0.0;
+};
+
+struct StringMeasures {
+    std::vector<PositionMeasures> positions;
+    double smallest_gap_m = 0.0;
+    double largest_gap_error_m = 0.0;
+    double largest_used_share = 0.0;
+    double largest_jerk_mps3 = 0.0;
+    int first_growing_position = 0;  // first position whose L-infinity ratio exceeds 1 by kRatioTolerance; 0: none
+    // Number of followers whose L-infinity norm is at most kDoubled times that of the platoon leader. It counts from the
+    // front and ends with the first exception.
+    int holding_followers = 0;
+};
+
+inline constexpr double kRatioTolerance = 1e-3;
+inline constexpr double kDoubled = 2.0;
+// Jerk is the change of the acceleration within this time, divided by this time. Shorter times would show the steps of
+// the torque at gear changes.
+inline constexpr double kJerkTime_s = 0.1;
+
+StringMeasures measure_string(const PlatoonMotion& motion);
+
+// Returns the complex amplitude of each vehicle's acceleration at an angular frequency. The motion must last a whole
+// number of periods.
+std::vector<std::complex<double>> amplitudes(const PlatoonMotion& motion, double frequency_radps);
+
+// The gain |Gamma| of one vehicle in a swing.
+struct SwingGain {
+    double mean = 0.0;  // geometric mean of the positions from 2 on; position 1 if the platoon has only one follower
+    double largest = 0.0;
+    double first = 0.0;  // position 1
+};
+SwingGain swing_gain(const std::vector<std::complex<double>>& amplitudes);
+
+}  // namespace stopline
