@@ -51,7 +51,9 @@ void declare(Options& app, StringsCliOptions& options) {
     app.add("FILE", options.file,
             runnable("Scenario with a straight road (default: scenarios/single_light.yaml). Each of its populations "
                      "drives as a platoon"));
-    app.add("--vehicles", options.vehicles, "Number of vehicles of a platoon, with its leader").range(2, 200).show_default();
+    app.add("--vehicles", options.vehicles, "Number of vehicles of a platoon, with its leader")
+        .range(2, 200)
+        .show_default();
     app.add("--manoeuvre", options.manoeuvre, "Manoeuvre of the platoon leader")
         .one_of({kAllManoeuvres, "swing", "brake", "start"})
         .show_default();
@@ -61,15 +63,17 @@ void declare(Options& app, StringsCliOptions& options) {
     app.add("--amplitude", options.amplitude, "Amplitude of the acceleration of swings; slow swings have less")
         .type_name("ACCELERATION")
         .show_default();
-    app.add("--frequency", options.frequencies,
-            "Angular frequency of a swing, a number in rad/s; may be repeated (default: 16 frequencies from 0.15 to 8)")
+    app.add(
+           "--frequency", options.frequencies,
+           "Angular frequency of a swing, a number in rad/s; may be repeated (default: 18 from 0.15 to 8, or 12 from 0.25 to 1.6 with --sweep)")
         .type_name("NUMBER")
         .one_value_each();
     app.add("--deceleration", options.deceleration, "Deceleration of the hard braking")
         .type_name("ACCELERATION")
         .show_default();
-    app.add_flag("--sweep", options.sweep,
-                 "Vary the V2V delay and the time gap of the first population, and find the border of string stability");
+    app.add_flag(
+        "--sweep", options.sweep,
+        "Vary the V2V delay and the time gap of the first population, and find the border of string stability");
     app.add("--delays", options.delays, "With --sweep: V2V delays").type_name("LIST").show_default();
     app.add("--time-gaps", options.time_gaps, "With --sweep: time gaps").type_name("LIST").show_default();
     app.add_flag("--no-figures", options.no_figures, "Do not draw figures");
@@ -91,8 +95,8 @@ double quantity(const std::string& option, const std::string& text, const char* 
     const ParsedQuantity parsed = parse_quantity(text, expected);
     if (!parsed.problem.empty()) throw InputError(fmt::format("{}: value '{}' {}", option, text, parsed.problem));
     if (parsed.si < to_si(low, expected) || parsed.si > to_si(high, expected)) {
-        throw InputError(fmt::format("{}: value '{}' is not allowed; allowed: {:g} {} to {:g} {}", option, text, low, in,
-                                     high, in));
+        throw InputError(
+            fmt::format("{}: value '{}' is not allowed; allowed: {:g} {} to {:g} {}", option, text, low, in, high, in));
     }
     return parsed.si;
 }
@@ -137,7 +141,11 @@ StringOptions string_options(const StringsCliOptions& options, const Scenario& s
     for (const std::string& text : options.frequencies) {
         strings.frequencies_radps.push_back(quantity("--frequency", text, "", 0.01, 50.0));
     }
-    if (options.frequencies.empty()) strings.frequencies_radps = default_frequencies_radps();
+    if (options.frequencies.empty()) {
+        // The border of string stability depends on the slow swings only.
+        strings.frequencies_radps =
+            options.sweep ? spaced_frequencies_radps(0.25, 1.6, 12) : spaced_frequencies_radps(0.15, 8.0, 18);
+    }
     return strings;
 }
 

@@ -42,7 +42,8 @@ std::string gains_text(const StringReport& report) {
         }
         rows.push_back(cells);
     }
-    return frequencies == 0 ? "" : "Gain |Gamma| of the acceleration from vehicle to vehicle\n" + table_text(rows) + "\n";
+    return frequencies == 0 ? ""
+                            : "Gain |Gamma| of the acceleration from vehicle to vehicle\n" + table_text(rows) + "\n";
 }
 
 std::string peaks_text(const StringReport& report) {
@@ -78,8 +79,7 @@ std::string manoeuvres_text(const StringReport& report) {
             add(result.population, manoeuvre_name(one.kind), one.measures);
         }
     }
-    return "Manoeuvres of the platoon leader\n" + table_text(rows) +
-           "\n" +
+    return "Manoeuvres of the platoon leader\n" + table_text(rows) + "\n" +
            wrap_text(
                "A manoeuvre grows from the first vehicle whose largest acceleration exceeds that of its leader. It holds "
                "as long as the largest acceleration is at most twice that of the platoon leader.",
@@ -102,15 +102,16 @@ std::string string_text(const StringReport& report) {
 }
 
 std::string string_sweep_text(const StringSweep& sweep) {
-    std::vector<std::vector<std::string>> rows{{"V2V delay [ms]", "time gap [s]", "peak", "at [rad/s]", "linear peak",
-                                                "at [rad/s]"}};
+    std::vector<std::vector<std::string>> rows{
+        {"V2V delay [ms]", "time gap [s]", "peak", "at [rad/s]", "linear peak", "at [rad/s]"}};
     for (const StringSweepPoint& one : sweep.points) {
         rows.push_back({number_cell(kMilliseconds * one.v2v_delay_s, 0), number_cell(one.time_gap_s, 2),
                         number_cell(one.measured_gain, 4), number_cell(one.measured_frequency_radps, 2),
                         number_cell(one.linear.gain, 4), number_cell(one.linear.frequency_radps, 2)});
     }
-    std::string text = fmt::format("Largest gain of {}\n{}\nBorder of string stability: smallest time gap without growth\n",
-                                   sweep.population, table_text(rows));
+    std::string text =
+        fmt::format("Largest gain of {}\n{}\nBorder of string stability: smallest time gap without growth\n",
+                    sweep.population, table_text(rows));
     rows = {{"V2V delay [ms]", "measured [s]", "linear [s]"}};
     for (const StringBorder& one : sweep.border) {
         rows.push_back({number_cell(kMilliseconds * one.v2v_delay_s, 0), number_cell(one.measured_time_gap_s, 2),

@@ -17,7 +17,8 @@ std::string gain_data(const StringReport& report) {
     std::string text = "# frequency_radps gain gain_linear, one block for each population\n";
     for (const StringResult& result : report.populations) {
         for (const SwingResult& swing : result.swings) {
-            text += fmt::format("{:.5f} {:.5f} {:.5f}\n", swing.frequency_radps, swing.measured.mean, swing.linear_gain);
+            text +=
+                fmt::format("{:.5f} {:.5f} {:.5f}\n", swing.frequency_radps, swing.measured.mean, swing.linear_gain);
         }
         text += "\n\n";
     }
@@ -120,9 +121,11 @@ Figure string_positions_figure(const StringReport& report) {
         for (const NamedMeasures& one : manoeuvres_of(report.populations[k])) {
             for (int panel = 0; panel < 2; ++panel) {
                 const std::string title =
-                    panel == 0 ? "title " + gnuplot_text(report.populations[k].population + ", " + one.name) : "notitle";
-                curves[panel] += fmt::format(" 'positions.dat' index {} using 1:{} with lines lw 2 dt {} lc rgb '{}' {},",
-                                             block, panel + 2, dash, line_style(k).colour, title);
+                    panel == 0 ? "title " + gnuplot_text(report.populations[k].population + ", " + one.name)
+                               : "notitle";
+                curves[panel] +=
+                    fmt::format(" 'positions.dat' index {} using 1:{} with lines lw 2 dt {} lc rgb '{}' {},", block,
+                                panel + 2, dash, line_style(k).colour, title);
             }
             ++block;
             ++dash;
@@ -134,7 +137,8 @@ Figure string_positions_figure(const StringReport& report) {
         "set xlabel 'position behind the platoon leader'\nset yrange [0:*]\nset rmargin 42\n"
         "set key at graph 1.02,1 left top\nset ylabel 'largest acceleration, relative to the platoon leader'\n"
         "set arrow from graph 0,first 1 to graph 1,first 1 nohead dt 2 lc rgb '#808080'\nplot" +
-        curves[0] + "unset arrow\nunset key\nset ylabel 'largest gap error [m]'\nplot" + curves[1] + "unset multiplot\n";
+        curves[0] + "unset arrow\nunset key\nset ylabel 'largest gap error [m]'\nplot" + curves[1] +
+        "unset multiplot\n";
     return figure;
 }
 
@@ -164,22 +168,23 @@ Figure string_motion_figure(const StringResult& result, const ManoeuvreResult& m
         curves[0] += fmt::format(" '{}' index {} using 1:3 with lines dt 1 lw 1.8 lc rgb '{}' title '{}',", file, k,
                                  colour, shown[k]);
         if (shown[k] == 0) continue;
-        curves[1] += fmt::format(" '{}' index {} using 1:4 with lines dt 1 lw 1.8 lc rgb '{}' notitle,", file, k, colour);
+        curves[1] +=
+            fmt::format(" '{}' index {} using 1:4 with lines dt 1 lw 1.8 lc rgb '{}' notitle,", file, k, colour);
     }
     for (std::string& text : curves) text.back() = '\n';
     figure.data = {{file, data}};
-    figure.body = fmt::format("set multiplot layout 2,1 title {} font ',15'\n",
-                              gnuplot_text(fmt::format("{}: the platoon leader {}", result.population,
-                                                       name == "brake" ? "brakes hard" : "starts from rest"))) +
-                  "set rmargin 14\nset key at graph 1.02,1 left top title 'position'\n"
-                  "set xlabel 'time since the beginning of the manoeuvre [s]'\nset ylabel 'acceleration [m/s^2]'\nplot" +
-                  curves[0] + "unset key\nset yrange [0:*]\nset ylabel 'net gap [m]'\nplot" + curves[1] +
-                  "unset multiplot\n";
+    figure.body =
+        fmt::format("set multiplot layout 2,1 title {} font ',15'\n",
+                    gnuplot_text(fmt::format("{}: the platoon leader {}", result.population,
+                                             name == "brake" ? "brakes hard" : "starts from rest"))) +
+        "set rmargin 14\nset key at graph 1.02,1 left top title 'position'\n"
+        "set xlabel 'time since the beginning of the manoeuvre [s]'\nset ylabel 'acceleration [m/s^2]'\nplot" +
+        curves[0] + "unset key\nset yrange [0:*]\nset ylabel 'net gap [m]'\nplot" + curves[1] + "unset multiplot\n";
     return figure;
 }
 
 Figure string_border_figure(const StringSweep& sweep) {
-    constexpr double kLimit = 1.0 + kRatioTolerance;
+    constexpr double kLimit = 1.0 + kSwingTolerance;
     Figure figure;
     figure.name = "border";
     std::string points = "# v2v_delay_ms time_gap_s grows gain\n";
@@ -189,8 +194,8 @@ Figure string_border_figure(const StringSweep& sweep) {
     }
     std::string border = "# v2v_delay_ms measured_s linear_s\n";
     for (const StringBorder& one : sweep.border) {
-        border += fmt::format("{:.3f} {:.4f} {:.4f}\n", kMillisecondsPerSecond * one.v2v_delay_s, one.measured_time_gap_s,
-                              one.linear_time_gap_s);
+        border += fmt::format("{:.3f} {:.4f} {:.4f}\n", kMillisecondsPerSecond * one.v2v_delay_s,
+                              one.measured_time_gap_s, one.linear_time_gap_s);
     }
     figure.data = {{"border_points.dat", points}, {"border.dat", border}};
     figure.body = fmt::format(

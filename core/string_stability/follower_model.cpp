@@ -110,7 +110,7 @@ void add_law(const FollowerModel& m, const LawGains& gains, int row, double fact
     system.add_input(row, leader_speed, -factor * gains.closing_1ps, radar_s);
     system.add_state(row, speed, factor * gains.closing_1ps, radar_s);
     system.add_state(row, speed, factor * gains.speed_1ps);
-    system.add_state(row, acceleration, factor * gains.acceleration);
+    system.add_state(row, acceleration, factor * gains.acceleration, m.acceleration_age_s);
     system.add_input(row, leader_acceleration, factor * gains.leader_acceleration, v2v_s);
     system.add_input(row, leader_request, factor * gains.leader_request, v2v_s);
     system.add_state(row, speed, factor * gains.platoon_leader_speed_1ps);

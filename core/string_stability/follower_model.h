@@ -29,10 +29,11 @@ struct PlatoonLawSettings {
 
 struct FollowerModel {
     Topology topology = Topology::leader;
-    CaccSettings cacc;          // gains, delays of radar and V2V, horizon of the predictive feedforward
-    double time_gap_s = 0.0;    // slope of the spacing law; 0: constant distance
-    double lag_s = 0.1;         // lag of the own powertrain
-    double leader_lag_s = 0.1;  // lag of the powertrain of the leader
+    CaccSettings cacc;                // gains, delays of radar and V2V, horizon of the predictive feedforward
+    double time_gap_s = 0.0;          // slope of the spacing law; 0: constant distance
+    double lag_s = 0.1;               // lag of the own powertrain
+    double leader_lag_s = 0.1;        // lag of the powertrain of the leader
+    double acceleration_age_s = 0.0;  // age of the own acceleration when the request that uses it takes effect
     PlatoonLawSettings platoon_law;
     SingerModel singer;
 };

@@ -105,8 +105,7 @@ public:
           report_(report) {
         motion_.step_s = model_.step_s;
         motion_.vehicles = at(vehicles);
-        const double run_s = queue_time_s(vehicles) +
-                             (manoeuvre.kind == Kind::start ? 0.0 : settle_time_s(vehicles)) +
+        const double run_s = queue_time_s(vehicles) + (manoeuvre.kind == Kind::start ? 0.0 : settle_time_s(vehicles)) +
                              longest_s(manoeuvre, vehicles, model_.step_s);
         expected_steps_ = run_s / model_.step_s;
     }
@@ -235,8 +234,7 @@ private:
             motion_.acceleration_mps2.push_back(v.acceleration_mps2[slot]);
             motion_.speed_mps.push_back(static_cast<float>(v.speed_mps[slot]));
             motion_.gap_m.push_back(static_cast<float>(gaps[position]));
-            motion_.gap_error_m.push_back(
-                position == 0 ? 0.0F : static_cast<float>(gap_error_m(gaps[position], slot)));
+            motion_.gap_error_m.push_back(position == 0 ? 0.0F : static_cast<float>(gap_error_m(gaps[position], slot)));
             if (position == 0) return;
             lag_sum_s_ += static_cast<double>(v.lag_s[slot]);
             ++lag_samples_;
@@ -252,7 +250,8 @@ private:
         const double dt = model_.step_s;
         const SwingTimes times = swing_times(manoeuvre_, vehicles_, dt);
         const double frequency_radps = 2.0 * std::numbers::pi / times.period_s;
-        const auto steps = static_cast<std::int64_t>(std::lround((times.growth_s + times.wait_s + times.record_s) / dt));
+        const auto steps =
+            static_cast<std::int64_t>(std::lround((times.growth_s + times.wait_s + times.record_s) / dt));
         const auto first = static_cast<std::int64_t>(std::lround((times.growth_s + times.wait_s) / dt));
         double reference_mps = manoeuvre_.speed_mps;
         for (std::int64_t k = 0; k < steps; ++k) {
@@ -310,9 +309,10 @@ private:
 
 void check_platoon_scenario(const Scenario& scenario) {
     if (network_kind(scenario.network).run != kRunAsSingleLight) {
-        throw InputError(fmt::format("field 'network.kind': value '{}' is not a straight road; give a scenario with "
-                                     "network.kind: approach",
-                                     scenario.network.kind));
+        throw InputError(
+            fmt::format("field 'network.kind': value '{}' is not a straight road; give a scenario with "
+                        "network.kind: approach",
+                        scenario.network.kind));
     }
     if (scenario.is_meso()) {
         throw InputError("field 'fidelity': value 'meso' has no controllers and sensors; set fidelity=full");

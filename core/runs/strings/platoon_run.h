@@ -32,11 +32,11 @@ struct PlatoonMotion {
     std::size_t samples = 0;
     std::vector<float> acceleration_mps2;
     std::vector<float> speed_mps;
-    std::vector<float> gap_m;        // net gap to the leader; 0 for the platoon leader
-    std::vector<float> gap_error_m;  // net gap minus the gap of the spacing policy at the own speed
+    std::vector<float> gap_m;              // net gap to the leader; 0 for the platoon leader
+    std::vector<float> gap_error_m;        // net gap minus the gap of the spacing policy at the own speed
     std::vector<double> standstill_gap_m;  // [position]
-    double follower_lag_s = 0.0;     // mean lag of the powertrains of the followers
-    bool was_settled = true;         // false: the platoon had not reached its equilibrium before the manoeuvre
+    double follower_lag_s = 0.0;           // mean lag of the powertrains of the followers
+    bool was_settled = true;               // false: the platoon had not reached its equilibrium before the manoeuvre
     Violations violations;
     std::int64_t updates = 0;  // moved vehicles, summed over all steps
     std::uint64_t state_hash = 0;

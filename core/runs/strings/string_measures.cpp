@@ -30,8 +30,7 @@ PositionMeasures measure_position(const PlatoonMotion& motion, std::size_t posit
     }
     one.l2_mps2 = std::sqrt(squares / static_cast<double>(motion.samples));
     if (position == 0) one.gap_error_m = kNan;
-    one.used_share =
-        position == 0 ? kNan : std::max(0.0, 1.0 - one.smallest_gap_m / motion.standstill_gap_m[position]);
+    one.used_share = position == 0 ? kNan : std::max(0.0, 1.0 - one.smallest_gap_m / motion.standstill_gap_m[position]);
     return one;
 }
 
@@ -69,8 +68,8 @@ StringMeasures measure_string(const PlatoonMotion& motion) {
 std::vector<std::complex<double>> amplitudes(const PlatoonMotion& motion, double frequency_radps) {
     std::vector<std::complex<double>> sums(motion.vehicles);
     for (std::size_t k = 0; k < motion.samples; ++k) {
-        const std::complex<double> wave =
-            std::polar(2.0 / static_cast<double>(motion.samples), -frequency_radps * static_cast<double>(k) * motion.step_s);
+        const std::complex<double> wave = std::polar(2.0 / static_cast<double>(motion.samples),
+                                                     -frequency_radps * static_cast<double>(k) * motion.step_s);
         for (std::size_t position = 0; position < motion.vehicles; ++position) {
             sums[position] += motion.value(motion.acceleration_mps2, k, position) * wave;
         }
@@ -81,13 +80,16 @@ std::vector<std::complex<double>> amplitudes(const PlatoonMotion& motion, double
 SwingGain swing_gain(const std::vector<std::complex<double>>& amplitudes) {
     SwingGain gain;
     gain.first = std::abs(amplitudes[1]) / std::abs(amplitudes[0]);
+    std::size_t last = 1;
     for (std::size_t k = 1; k < amplitudes.size(); ++k) {
+        const bool is_weak = std::abs(amplitudes[k]) < kSmallestShare * std::abs(amplitudes[0]);
+        if (k > 1 && (is_weak || std::abs(amplitudes[k]) > kLargestAmplitude_mps2)) break;
         gain.largest = std::max(gain.largest, std::abs(amplitudes[k]) / std::abs(amplitudes[k - 1]));
+        last = k;
     }
-    const std::size_t last = amplitudes.size() - 1;
-    gain.mean = last == 1 ? gain.first
-                          : std::pow(std::abs(amplitudes[last]) / std::abs(amplitudes[1]),
-                                     1.0 / static_cast<double>(last - 1));
+    gain.mean =
+        last == 1 ? gain.first
+                  : std::pow(std::abs(amplitudes[last]) / std::abs(amplitudes[1]), 1.0 / static_cast<double>(last - 1));
     return gain;
 }
 

@@ -21,7 +21,7 @@ struct PositionMeasures {
     double linf_from_head = 0.0;
     double gap_error_m = 0.0;     // largest absolute gap error
     double smallest_gap_m = 0.0;  // smallest net gap
-    double used_share = 0.0;      // share of the standstill gap that was used up: 1 - smallest gap / standstill gap, >= 0
+    double used_share = 0.0;  // share of the standstill gap that was used up: 1 - smallest gap / standstill gap, >= 0
     double largest_jerk_mps3 = 0.0;
 };
 
@@ -38,6 +38,8 @@ struct StringMeasures {
 };
 
 inline constexpr double kRatioTolerance = 1e-3;
+// A swing grows if its gain exceeds 1 by more than this. The measured gain of one vehicle is as exact as that.
+inline constexpr double kSwingTolerance = 2e-4;
 inline constexpr double kDoubled = 2.0;
 // Jerk is the change of the acceleration within this time, divided by this time. Shorter times would show the steps of
 // the torque at gear changes.
@@ -49,9 +51,16 @@ StringMeasures measure_string(const PlatoonMotion& motion);
 // number of periods.
 std::vector<std::complex<double>> amplitudes(const PlatoonMotion& motion, double frequency_radps);
 
+// The gain of a swing is measured from the front as far as the amplitude stays between two bounds. Below kSmallestShare
+// of the platoon leader's amplitude, the steps of the torque hide the oscillation. Above kLargestAmplitude_mps2, the
+// limits of acceleration act, and the gain depends on the amplitude.
+inline constexpr double kSmallestShare = 0.02;
+inline constexpr double kLargestAmplitude_mps2 = 1.0;
+
 // The gain |Gamma| of one vehicle in a swing.
 struct SwingGain {
-    double mean = 0.0;  // geometric mean of the positions from 2 on; position 1 if the platoon has only one follower
+    // Geometric mean of the positions from 2 on. If position 2 is out of bounds, it is the gain of position 1.
+    double mean = 0.0;
     double largest = 0.0;
     double first = 0.0;  // position 1
 };

@@ -72,9 +72,19 @@ void add_outcome(RunOutcome& outcome, StringResult& result) {
         result.swings.push_back({outcome.manoeuvre.frequency_radps, outcome.leader_amplitude_mps2, outcome.gain, kNan,
                                  std::move(outcome.measures)});
     } else {
-        result.manoeuvres.push_back(
-            {outcome.manoeuvre.kind, std::move(outcome.measures), std::move(outcome.motion)});
+        result.manoeuvres.push_back({outcome.manoeuvre.kind, std::move(outcome.measures), std::move(outcome.motion)});
     }
+}
+
+// Returns the range of frequencies in which the linear model is compared with the swings.
+FrequencyRange swing_range(const std::vector<SwingResult>& swings) {
+    FrequencyRange range;
+    range.high_radps = 0.0;
+    for (const SwingResult& swing : swings) {
+        range.low_radps = std::min(range.low_radps, swing.frequency_radps);
+        range.high_radps = std::max(range.high_radps, swing.frequency_radps);
+    }
+    return range;
 }
 
 void add_linear_analysis(const Scenario& scenario, std::size_t population, double speed_mps, StringResult& result) {
@@ -88,20 +98,18 @@ void add_linear_analysis(const Scenario& scenario, std::size_t population, doubl
     for (SwingResult& swing : result.swings) {
         swing.linear_gain = std::abs(follower.response(swing.frequency_radps).to_leader);
     }
-    result.linear_peak = peak_gain(follower);
-    if (result.model->time_gap_s > 0.0) result.stable_time_gap_s = smallest_stable_time_gap_s(*result.model);
+    result.range = swing_range(result.swings);
+    result.linear_peak = peak_gain(follower, result.range);
+    if (result.model->time_gap_s > 0.0) {
+        result.stable_time_gap_s = smallest_stable_time_gap_s(*result.model, result.range);
+    }
 }
 
 }  // namespace
 
-std::vector<double> default_frequencies_radps() {
-    constexpr double kLowest_radps = 0.15;
-    constexpr double kHighest_radps = 8.0;
-    constexpr int kCount = 16;
+std::vector<double> spaced_frequencies_radps(double low_radps, double high_radps, int count) {
     std::vector<double> all;
-    for (int k = 0; k < kCount; ++k) {
-        all.push_back(kLowest_radps * std::pow(kHighest_radps / kLowest_radps, k / (kCount - 1.0)));
-    }
+    for (int k = 0; k < count; ++k) all.push_back(low_radps * std::pow(high_radps / low_radps, k / (count - 1.0)));
     return all;
 }
 
@@ -129,9 +137,12 @@ bool StringReport::no_violations() const {
 
 std::string manoeuvre_name(Manoeuvre::Kind kind) {
     switch (kind) {
-        case Manoeuvre::Kind::swing: return "swing";
-        case Manoeuvre::Kind::brake: return "brake";
-        case Manoeuvre::Kind::start: break;
+        case Manoeuvre::Kind::swing:
+            return "swing";
+        case Manoeuvre::Kind::brake:
+            return "brake";
+        case Manoeuvre::Kind::start:
+            break;
     }
     return "start";
 }
@@ -153,6 +164,9 @@ std::optional<FollowerModel> linear_model(const Scenario& scenario, std::size_t 
     model.cacc = driver_of(scenario, component).cacc;
     model.lag_s = lag_s;
     model.leader_lag_s = lag_s;
+    // The driver knows the mean acceleration of the step before. Its middle is 1.5 steps before the end of this step,
+    // when the request takes effect.
+    model.acceleration_age_s = 1.5 * scenario.step_s;
     return model;
 }
 

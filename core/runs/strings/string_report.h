@@ -24,8 +24,8 @@ struct StringOptions {
     std::function<bool(double)> on_progress;  // gets the completed share, 0 .. 1; returns false to stop
 };
 
-// The frequencies of the swings by default: equally spaced on a logarithmic scale.
-std::vector<double> default_frequencies_radps();
+// Returns `count` frequencies from `low_radps` to `high_radps`, equally spaced on a logarithmic scale.
+std::vector<double> spaced_frequencies_radps(double low_radps, double high_radps, int count);
 
 // Returns the speed around which the leader swings by default. It leaves the followers room below the speed limit.
 double default_string_speed_mps(const Scenario& scenario);
@@ -52,9 +52,11 @@ struct StringResult {
     std::string population;
     double follower_lag_s = 0.0;         // mean lag of the powertrains of the followers in the swings
     std::optional<FollowerModel> model;  // absent: mixed population or human drivers
+    FrequencyRange range;                // of the linear analysis: up to the highest frequency of the swings
     GainPeak linear_peak;                // of the linear model; gain NaN without one
-    double stable_time_gap_s = 0.0;      // smallest time gap of the linear model; NaN without a model or with a constant distance
-    std::vector<SwingResult> swings;     // in the order of StringOptions::frequencies_radps
+    double stable_time_gap_s =
+        0.0;  // smallest time gap of the linear model; NaN without a model or with a constant distance
+    std::vector<SwingResult> swings;  // in the order of StringOptions::frequencies_radps
     std::vector<ManoeuvreResult> manoeuvres;
     bool was_settled = true;  // false: a platoon had not reached its equilibrium before a manoeuvre
     Violations violations;
