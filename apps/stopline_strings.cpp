@@ -60,7 +60,7 @@ void declare(Options& app, StringsCliOptions& options) {
     app.add("--speed", options.speed,
             "Speed before braking, and mean speed of swings (default: 70 % of the speed limit)")
         .type_name("SPEED");
-    app.add("--amplitude", options.amplitude, "Amplitude of the acceleration of swings; slow swings have less")
+    app.add("--amplitude", options.amplitude, "Amplitude of the acceleration of swings; slow and fast swings have less")
         .type_name("ACCELERATION")
         .show_default();
     app.add(

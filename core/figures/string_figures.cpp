@@ -93,19 +93,28 @@ Figure string_gain_figure(const StringReport& report) {
         return figure;
     }
     figure.data = {{"gain.dat", gain_data(report)}, {"gain_linear.dat", linear_data(report)}};
-    figure.body =
-        "set title 'Gain of the acceleration from vehicle to vehicle (lines: linear analysis, points: full dynamics)'\n"
-        "set logscale x\nset xrange [0.1:10]\nset yrange [0:*]\nset xlabel 'angular frequency [rad/s]'\n"
-        "set ylabel '|Gamma|'\nset key outside right\n"
-        "set arrow from graph 0,first 1 to graph 1,first 1 nohead dt 2 lc rgb '#808080'\nplot";
+    std::string curves;
+    double largest = 0.0;
     for (std::size_t k = 0; k < report.populations.size(); ++k) {
         const std::string colour = line_style(k).colour;
-        figure.body += fmt::format(
+        curves += fmt::format(
             " 'gain_linear.dat' index {0} using 1:2 with lines dt 1 lw 1.8 lc rgb '{1}' notitle, "
             "'gain.dat' index {0} using 1:2 with points pt {2} ps 1.2 lc rgb '{1}' title {3},",
             k, colour, line_style(k).hollow_point, gnuplot_text(report.populations[k].population));
+        largest = std::max(largest, report.populations[k].worst_swing()->measured.mean);
     }
-    figure.body.back() = '\n';
+    curves.back() = '\n';
+    figure.height_px = 860;
+    figure.body =
+        "set multiplot layout 2,1 title 'Gain of the acceleration from vehicle to vehicle' font ',15'\n"
+        "set logscale x\nset xrange [0.1:10]\nset yrange [0:*]\nset ylabel '|Gamma|'\nset rmargin 18\n"
+        "set xlabel 'angular frequency [rad/s]    (lines: linear analysis, points: full dynamics)'\n"
+        "set key at graph 1.02,1 left top\n"
+        "set arrow from graph 0,first 1 to graph 1,first 1 nohead dt 2 lc rgb '#808080'\nplot" +
+        curves + "unset key\n" +
+        fmt::format("set title 'detail' offset 0,-0.6\nset yrange [0.96:{:.3f}]\nplot",
+                    std::max(1.04, 0.01 + largest)) +
+        curves + "unset multiplot\n";
     return figure;
 }
 
@@ -173,13 +182,14 @@ Figure string_motion_figure(const StringResult& result, const ManoeuvreResult& m
     }
     for (std::string& text : curves) text.back() = '\n';
     figure.data = {{file, data}};
-    figure.body =
-        fmt::format("set multiplot layout 2,1 title {} font ',15'\n",
-                    gnuplot_text(fmt::format("{}: the platoon leader {}", result.population,
-                                             name == "brake" ? "brakes hard" : "starts from rest"))) +
-        "set rmargin 14\nset key at graph 1.02,1 left top title 'position'\n"
-        "set xlabel 'time since the beginning of the manoeuvre [s]'\nset ylabel 'acceleration [m/s^2]'\nplot" +
-        curves[0] + "unset key\nset yrange [0:*]\nset ylabel 'net gap [m]'\nplot" + curves[1] + "unset multiplot\n";
+    figure.body = fmt::format("set multiplot layout 2,1 title {} font ',15'\n",
+                              gnuplot_text(fmt::format("{}: the platoon leader {}", result.population,
+                                                       name == "brake" ? "brakes hard" : "starts from rest"))) +
+                  "set rmargin 14\nset key at graph 1.02,1 left top title 'position'\n"
+                  "set xlabel 'time since the beginning of the manoeuvre [s]'\nset yrange [*:*]\n"
+                  "set ylabel 'acceleration [m/s^2]'\nplot" +
+                  curves[0] + "unset key\nset yrange [0:*]\nset ylabel 'net gap [m]'\nplot" + curves[1] +
+                  "unset multiplot\n";
     return figure;
 }
 

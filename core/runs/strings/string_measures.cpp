@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/nan.h"
+#include "base/speed_thresholds.h"
 
 namespace stopline {
 
@@ -19,7 +20,7 @@ PositionMeasures measure_position(const PlatoonMotion& motion, std::size_t posit
     for (std::size_t k = 0; k < motion.samples; ++k) {
         squares += acceleration(k) * acceleration(k);
         one.linf_mps2 = std::max(one.linf_mps2, std::abs(acceleration(k)));
-        if (k >= jerk_samples) {
+        if (k >= jerk_samples && motion.value(motion.speed_mps, k, position) >= kStoppedSpeed_mps) {
             const double change_mps2 = std::abs(acceleration(k) - acceleration(k - jerk_samples));
             one.largest_jerk_mps3 =
                 std::max(one.largest_jerk_mps3, change_mps2 / (static_cast<double>(jerk_samples) * motion.step_s));
@@ -77,13 +78,14 @@ std::vector<std::complex<double>> amplitudes(const PlatoonMotion& motion, double
     return sums;
 }
 
-SwingGain swing_gain(const std::vector<std::complex<double>>& amplitudes) {
+SwingGain swing_gain(const std::vector<std::complex<double>>& amplitudes, double frequency_radps) {
+    const double largest_mps2 = std::min(kLargestAmplitude_mps2, kLargestSwingJerk_mps3 / frequency_radps);
     SwingGain gain;
     gain.first = std::abs(amplitudes[1]) / std::abs(amplitudes[0]);
     std::size_t last = 1;
     for (std::size_t k = 1; k < amplitudes.size(); ++k) {
         const bool is_weak = std::abs(amplitudes[k]) < kSmallestShare * std::abs(amplitudes[0]);
-        if (k > 1 && (is_weak || std::abs(amplitudes[k]) > kLargestAmplitude_mps2)) break;
+        if (k > 1 && (is_weak || std::abs(amplitudes[k]) > largest_mps2)) break;
         gain.largest = std::max(gain.largest, std::abs(amplitudes[k]) / std::abs(amplitudes[k - 1]));
         last = k;
     }

@@ -22,7 +22,7 @@ struct PositionMeasures {
     double gap_error_m = 0.0;     // largest absolute gap error
     double smallest_gap_m = 0.0;  // smallest net gap
     double used_share = 0.0;  // share of the standstill gap that was used up: 1 - smallest gap / standstill gap, >= 0
-    double largest_jerk_mps3 = 0.0;
+    double largest_jerk_mps3 = 0.0;  // while the vehicle is not stopped: the last moment of a stop has an endless jerk
 };
 
 struct StringMeasures {
@@ -51,11 +51,12 @@ StringMeasures measure_string(const PlatoonMotion& motion);
 // number of periods.
 std::vector<std::complex<double>> amplitudes(const PlatoonMotion& motion, double frequency_radps);
 
-// The gain of a swing is measured from the front as far as the amplitude stays between two bounds. Below kSmallestShare
-// of the platoon leader's amplitude, the steps of the torque hide the oscillation. Above kLargestAmplitude_mps2, the
-// limits of acceleration act, and the gain depends on the amplitude.
+// The gain of a swing is measured from the front as far as the amplitude stays within bounds. Below kSmallestShare of the
+// platoon leader's amplitude, the steps of the torque hide the oscillation. Above the two other bounds, the limits of
+// acceleration and jerk act, and the gain depends on the amplitude.
 inline constexpr double kSmallestShare = 0.02;
 inline constexpr double kLargestAmplitude_mps2 = 1.0;
+inline constexpr double kLargestSwingJerk_mps3 = 2.5;
 
 // The gain |Gamma| of one vehicle in a swing.
 struct SwingGain {
@@ -64,6 +65,6 @@ struct SwingGain {
     double largest = 0.0;
     double first = 0.0;  // position 1
 };
-SwingGain swing_gain(const std::vector<std::complex<double>>& amplitudes);
+SwingGain swing_gain(const std::vector<std::complex<double>>& amplitudes, double frequency_radps);
 
 }  // namespace stopline

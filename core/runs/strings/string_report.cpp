@@ -53,7 +53,7 @@ RunOutcome run_one(const Scenario& scenario, std::size_t population, int vehicle
     if (manoeuvre.kind != Manoeuvre::Kind::swing) return outcome;
     outcome.manoeuvre.frequency_radps = realised_frequency_radps(manoeuvre.frequency_radps, outcome.motion.step_s);
     const std::vector<std::complex<double>> waves = amplitudes(outcome.motion, outcome.manoeuvre.frequency_radps);
-    outcome.gain = swing_gain(waves);
+    outcome.gain = swing_gain(waves, outcome.manoeuvre.frequency_radps);
     outcome.leader_amplitude_mps2 = std::abs(waves[0]);
     for (std::vector<float>* list : {&outcome.motion.acceleration_mps2, &outcome.motion.speed_mps,
                                      &outcome.motion.gap_m, &outcome.motion.gap_error_m}) {
@@ -120,7 +120,9 @@ double default_string_speed_mps(const Scenario& scenario) {
 
 double swing_amplitude_mps2(const StringOptions& options, double frequency_radps) {
     constexpr double kSpeedShare = 0.15;
-    return std::min(options.amplitude_mps2, kSpeedShare * options.speed_mps * frequency_radps);
+    constexpr double kJerk_mps3 = 0.6;
+    return std::min(
+        {options.amplitude_mps2, kSpeedShare * options.speed_mps * frequency_radps, kJerk_mps3 / frequency_radps});
 }
 
 const SwingResult* StringResult::worst_swing() const {

@@ -30,7 +30,8 @@ std::vector<double> spaced_frequencies_radps(double low_radps, double high_radps
 // Returns the speed around which the leader swings by default. It leaves the followers room below the speed limit.
 double default_string_speed_mps(const Scenario& scenario);
 
-// Returns the amplitude of the leader's acceleration, limited so that its speed varies by at most 15 %.
+// Returns the amplitude of the leader's acceleration. It is limited so that the speed of the leader varies by at most
+// 15 %, and so that a fast swing stays far below the limit of the jerk.
 double swing_amplitude_mps2(const StringOptions& options, double frequency_radps);
 
 struct SwingResult {
