@@ -12,6 +12,7 @@
 #include "base/input_error.h"
 #include "base/io/data_directory.h"
 #include "base/io/output.h"
+#include "base/nearest_name.h"
 #include "base/units.h"
 #include "common/command_line.h"
 #include "common/examples.h"
@@ -23,6 +24,7 @@
 #include "runs/strings/string_csv.h"
 #include "runs/strings/string_report.h"
 #include "runs/strings/string_sweep.h"
+#include "scenario/load_scenario.h"
 #include "scenario/schema/quantity.h"
 #include "strings/string_text.h"
 
@@ -35,6 +37,7 @@ constexpr const char* kAllManoeuvres = "all";
 struct StringsCliOptions {
     CommonOptions common;
     std::string file;
+    std::vector<std::string> populations;
     int vehicles = 20;
     std::string manoeuvre = kAllManoeuvres;
     std::string speed;
@@ -51,6 +54,10 @@ void declare(Options& app, StringsCliOptions& options) {
     app.add("FILE", options.file,
             runnable("Scenario with a straight road (default: scenarios/single_light.yaml). Each of its populations "
                      "drives as a platoon"));
+    app.add("--population", options.populations,
+            "Population of the scenario, or policy of all vehicles; may be repeated (default: all populations)")
+        .type_name("NAME")
+        .one_value_each();
     app.add("--vehicles", options.vehicles, "Number of vehicles of a platoon, with its leader")
         .range(2, 200)
         .show_default();
@@ -80,13 +87,38 @@ void declare(Options& app, StringsCliOptions& options) {
     add_common_options(app, options.common, "Folder for the results (default: out/strings)");
     add_set_option(app, options.common);
     app.footer(runnable("\nExamples:\n"
-                        "  stopline-strings --set 'populations=[CDG, CTG-Ref]'\n"
-                        "  stopline-strings --set 'populations=[CDG]' --set 'driver.cacc.v2v_delay=150 ms'\n"
+                        "  stopline-strings --population CDG --population CTG-Ref\n"
+                        "  stopline-strings --population CDG --set 'driver.cacc.v2v_delay=150 ms'\n"
                         "  stopline-strings --manoeuvre brake --vehicles 40 --speed '50 km/h'\n"
-                        "  stopline-strings --sweep --set 'populations=[CTG-Ref]' --output out/border\n\n"
+                        "  stopline-strings --sweep --population CTG-Ref --output out/border\n\n"
                         "Next: see the effect of the delay on the throughput of a light\n"
                         "  stopline-run scenarios/single_light.yaml --set 'driver.cacc.v2v_delay=150 ms'\n\n") +
                kExitCodesText);
+}
+
+// Replaces the populations of the scenario by those of the command line, if it names any.
+void choose_populations(const std::vector<std::string>& names, Scenario& scenario) {
+    if (names.empty()) return;
+    std::vector<PopulationSettings> chosen;
+    std::vector<std::string> known;
+    for (const PopulationSettings& population : scenario.populations) known.push_back(population.name);
+    for (const GapPolicySettings& policy : scenario.policies) {
+        if (std::find(known.begin(), known.end(), policy.name) == known.end()) known.push_back(policy.name);
+    }
+    for (const std::string& name : names) {
+        if (std::find(known.begin(), known.end(), name) == known.end()) {
+            throw InputError(fmt::format("--population: there is no population or policy '{}'{}", shortened(name),
+                                         known_names_hint(name, known)));
+        }
+        const auto population = std::find_if(scenario.populations.begin(), scenario.populations.end(),
+                                             [&](const PopulationSettings& one) { return one.name == name; });
+        chosen.push_back(population != scenario.populations.end()
+                             ? *population
+                             : PopulationSettings{name, {{name, 1.0}}, PopulationSettings::Pattern::alternating});
+    }
+    scenario.populations = std::move(chosen);
+    scenario.measure.baseline.clear();
+    scenario.hash = scenario_hash(scenario);
 }
 
 // Returns a quantity from the command line in SI units. Throws InputError unless it is from `low` to `high`.
@@ -155,6 +187,7 @@ std::string command_of(const StringsCliOptions& options) {
     const auto add = [&](const char* name, const std::string& value, const std::string& by_default) {
         if (value != by_default) command += fmt::format(" {} {}", name, shell_word(value));
     };
+    for (const std::string& name : options.populations) add("--population", name, "");
     add("--vehicles", std::to_string(options.vehicles), std::to_string(defaults.vehicles));
     add("--manoeuvre", options.manoeuvre, defaults.manoeuvre);
     add("--speed", options.speed, defaults.speed);
@@ -199,8 +232,8 @@ ExitCode run_sweep(const StringsCliOptions& options, const Scenario& scenario, S
     fmt::print("{}", string_sweep_text(sweep));
     write_results(options, scenario, {{"sweep.csv", string_sweep_csv(sweep)}, {"border.csv", string_border_csv(sweep)}},
                   {}, {string_border_figure(sweep)});
-    fmt::print("{}", runnable("\nNext: one platoon in detail\n  stopline-strings --set 'populations=[CTG-Ref]' --set "
-                              "'driver.cacc.v2v_delay=150 ms'\n"));
+    fmt::print("{}", runnable("\nNext: one platoon in detail\n"
+                              "  stopline-strings --population CTG-Ref --set 'driver.cacc.v2v_delay=150 ms'\n"));
     return sweep.violations.none() ? ExitCode::done : ExitCode::check_failed;
 }
 
@@ -223,13 +256,14 @@ ExitCode run_report(const StringsCliOptions& options, const Scenario& scenario, 
     if (!strings.frequencies_radps.empty()) tables.emplace_back("gains.csv", string_gains_csv(report));
     write_results(options, scenario, tables, hashes, string_figures(report));
     fmt::print("{}", runnable("\nNext: find the border of string stability\n"
-                              "  stopline-strings --sweep --set 'populations=[CTG-Ref]'\n"));
+                              "  stopline-strings --sweep --population CTG-Ref\n"));
     return report.no_violations() ? ExitCode::done : ExitCode::check_failed;
 }
 
 ExitCode run(const StringsCliOptions& options) {
-    const Scenario scenario = load_with_options(
+    Scenario scenario = load_with_options(
         options.file.empty() ? (scenario_directory() / "single_light.yaml").string() : options.file, options.common);
+    choose_populations(options.populations, scenario);
     check_platoon_scenario(scenario);
     const StringOptions strings = string_options(options, scenario);
     prepare_folder(options.common.output.empty() ? "out/strings" : options.common.output);

@@ -20,7 +20,7 @@ Scenario first_population_of(const Scenario& scenario, std::size_t& policy) {
     if (population.components.size() != 1) {
         throw InputError(
             fmt::format("--sweep: population '{}' has several policies; give one policy, such as "
-                        "--set 'populations=[CTG-Ref]'",
+                        "--population CTG-Ref",
                         population.name));
     }
     const auto known = std::find_if(one.policies.begin(), one.policies.end(), [&](const GapPolicySettings& settings) {
@@ -34,7 +34,7 @@ Scenario first_population_of(const Scenario& scenario, std::size_t& policy) {
     if (!has_time_gap || law.is_human) {
         throw InputError(
             fmt::format("--sweep: policy '{}' has the law '{}', which has no time gap for automated "
-                        "vehicles; give a policy with a time gap, such as --set 'populations=[CTG-Ref]'",
+                        "vehicles; give a policy with a time gap, such as --population CTG-Ref",
                         known->name, known->law));
     }
     policy = static_cast<std::size_t>(known - one.policies.begin());

@@ -91,6 +91,14 @@ check_complete sweep/NAME_means.csv
 "$STOPLINE_BIN/stopline-startup" --no-figures --output "$work/startup" >"$work/stdout" || fail "stopline-startup: exit code $?"
 check_all startup startup 2
 
+"$STOPLINE_BIN/stopline-strings" --no-figures --population CTG-Ref --vehicles 3 \
+    --frequency 2 --output "$work/strings" >"$work/stdout" || fail "stopline-strings: exit code $?"
+"$STOPLINE_BIN/stopline-strings" --no-figures --population CTG-Ref --vehicles 3 \
+    --frequency 2 --sweep --delays '20 ms' --time-gaps '1 s' --output "$work/strings" >"$work/stdout" ||
+    fail "stopline-strings --sweep: exit code $?"
+check_all strings strings 5
+for table in summary positions gains sweep border; do check_complete "strings/$table.csv"; done
+
 # Tests the check itself: a column without a description must be reported.
 head -n 1 "$work/grid/delays.csv" | sed 's/$/,new_column/' >"$work/extra.csv"
 before=$failures
