@@ -1,6 +1,7 @@
 #include "figures/string_figures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -123,12 +124,12 @@ Figure string_positions_figure(const StringReport& report) {
     figure.name = "positions";
     figure.height_px = 760;
     figure.data = {{"positions.dat", positions_data(report)}};
-    std::string curves[2];
+    std::array<std::string, 2> curves;
     std::size_t block = 0;
     for (std::size_t k = 0; k < report.populations.size(); ++k) {
         int dash = 1;
         for (const NamedMeasures& one : manoeuvres_of(report.populations[k])) {
-            for (int panel = 0; panel < 2; ++panel) {
+            for (std::size_t panel = 0; panel < curves.size(); ++panel) {
                 const std::string title =
                     panel == 0 ? "title " + gnuplot_text(report.populations[k].population + ", " + one.name)
                                : "notitle";
@@ -162,7 +163,7 @@ Figure string_motion_figure(const StringResult& result, const ManoeuvreResult& m
     const auto stride = static_cast<std::size_t>(std::max(1L, std::lround(kInterval_s / motion.step_s)));
     const std::vector<std::size_t> shown = shown_positions_of(motion);
     std::string data = "# time_s speed_kmh acceleration_mps2 net_gap_m, one block for each position\n";
-    std::string curves[2];
+    std::array<std::string, 2> curves;
     for (std::size_t k = 0; k < shown.size(); ++k) {
         data += fmt::format("# position {}\n", shown[k]);
         for (std::size_t sample = 0; sample < motion.samples; sample += stride) {

@@ -60,7 +60,7 @@ run imported "$work/imported.yaml" "${network[@]}"
 check_all imported network 7
 run intersection "$STOPLINE_SOURCE/scenarios/intersection.yaml" "${brief[@]}" --set measure.cycles=1
 check_all intersection intersection 3
-run light "$STOPLINE_SOURCE/scenarios/first_steps.yaml" "${brief[@]}"
+run light "$STOPLINE_SOURCE/scenarios/first_steps.yaml" "${brief[@]}" --set measure.string_stability=on
 check_all light single_light 4
 while read -r table; do check_complete "$table"; done < \
     <(grep -oE '^## (network|intersection|single_light)/.*' "$work/page" | cut -c4-)
@@ -84,7 +84,7 @@ sweep of_grid "$STOPLINE_SOURCE/scenarios/grid.yaml" "${network[@]}" --set netwo
 sweep of_streets "$STOPLINE_SOURCE/scenarios/berlin.yaml" "${network[@]}"
 sweep of_intersection "$STOPLINE_SOURCE/scenarios/intersection.yaml" --set measure.cycles=1 --set 'populations=[CDG]' \
     --set measure.baseline=CDG
-sweep of_light "$STOPLINE_SOURCE/scenarios/first_steps.yaml"
+sweep of_light "$STOPLINE_SOURCE/scenarios/first_steps.yaml" --set measure.string_stability=on
 check_complete sweep/NAME.csv
 check_complete sweep/NAME_means.csv
 
