@@ -20,6 +20,8 @@ struct MeasureSettings {
     // For network.kind `approach` only: times after the start of green at which the passed vehicles are counted.
     std::vector<double> green_s;
     std::string baseline;  // name of the population with which the others are compared; empty: none
+    // For network.kind `approach` only: off | on: measures whether accelerations grow along the queue.
+    std::string string_stability = "off";
     // For single intersections only:
     int warmup_cycles = 1;  // signal cycles before the measurement
     int cycles = 5;         // measured signal cycles; follows from Scenario::duration_s if that is not 0

@@ -207,5 +207,11 @@ TEST(TimeSpace, SideNeedsADiagram) {
     EXPECT_TRUE(contains(error_in_grid({"measure.time_space_side=up", "measure.time_space=60 s"}), "'up' is unknown"));
 }
 
+TEST(StringStability, IsForSingleLights) {
+    EXPECT_TRUE(contains(error_for_kind("intersection", {"measure.string_stability=on"}),
+                         "field 'measure.string_stability': is for a single light only"));
+    EXPECT_EQ(error_for_kind("approach", {"measure.string_stability=on"}), "");
+}
+
 }  // namespace
 }  // namespace stopline

@@ -121,6 +121,8 @@ struct Metric {
     // Property of the kinds of networks that have the metric, such as &NetworkKind::has_trips. Null: each kind of the
     // list has the metric.
     bool NetworkKind::*only_for = nullptr;
+    // Returns true for scenarios that ask for the metric. Null: all scenarios have it.
+    bool (*asked_for)(const Scenario& scenario) = nullptr;
     ConsoleColumn<Run> console;
     MetricFigure figure = {};
 

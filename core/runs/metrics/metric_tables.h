@@ -67,7 +67,8 @@ MetricColumns<Run> metric_columns(const MetricList<Run>& metrics, const Scenario
     for (const Metric<Run>& metric : metrics) {
         const bool applies =
             scenario == nullptr || metric.only_for == nullptr || network_kind(scenario->network).*metric.only_for;
-        if (applies && is_wanted(metric)) wanted.push_back(&metric);
+        const bool is_asked_for = scenario == nullptr || metric.asked_for == nullptr || metric.asked_for(*scenario);
+        if (applies && is_asked_for && is_wanted(metric)) wanted.push_back(&metric);
     }
     MetricColumns<Run> columns;
     for (std::size_t first = 0; first < wanted.size();) {

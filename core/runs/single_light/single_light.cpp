@@ -9,6 +9,7 @@
 #include "base/containers/index.h"
 #include "base/nan.h"
 #include "runs/single_light/ideal_platoon.h"
+#include "runs/single_light/queue_stability.h"
 #include "scenario/fleets.h"
 #include "sim/state/model.h"
 
@@ -161,6 +162,10 @@ PopulationSummary summary_of(const Scenario& scenario, std::size_t index, const 
     summary.leader = leader_of(scenario, summary.line, points, run.green_start_s);
     summary.queue = queue_gaps(run.queue_gaps_m);
     summary.ideal = ideal_counter(scenario, population, points, run.green_start_s);
+    summary.stability = {kNan, kNan, kNan, kNan};
+    if (scenario.measure.string_stability == "on") {
+        summary.stability = queue_stability(scenario, population, summary.line, points, run.green_start_s);
+    }
     return summary;
 }
 

@@ -38,6 +38,15 @@ struct QueueGaps {
     double largest_m = 0.0;
 };
 
+// Growth of accelerations along the queue after the start of green, for the vehicles that pass the stop line within the
+// green. All values are NaN unless measure.string_stability is on and a lane has at least one follower.
+struct QueueStability {
+    double linf_ratio = 0.0;      // largest ratio of a vehicle's largest acceleration to that of its leader
+    double linf_from_head = 0.0;  // the same, compared with the first vehicle of the lane
+    double gap_error_m = 0.0;     // largest absolute difference between net gap and spacing policy
+    double smallest_gap_m = 0.0;
+};
+
 struct PopulationSummary {
     std::string name;
     Counter counter{{}};                          // counts vehicles that pass the stop line, from the start of green on
@@ -51,6 +60,7 @@ struct PopulationSummary {
     SteadyFlow steady;
     LeaderStart leader;  // start of the leader on the first lane; times count from the start of green
     QueueGaps queue;     // net gaps in the queue at the start of green
+    QueueStability stability;
 };
 
 struct SingleLightReport {

@@ -189,12 +189,44 @@ MetricList<MeasuredLight> queue_metrics() {
     };
 }
 
+bool asks_for_stability(const Scenario& scenario) { return scenario.measure.string_stability == "on"; }
+
+MetricList<MeasuredLight> stability_metrics() {
+    MetricList<MeasuredLight> metrics{
+        {.column = "string_linf_ratio",
+         .extent = "green",
+         .meaning = "largest ratio of a vehicle's largest acceleration to that of its leader, from the start of green "
+                    "on. Only vehicles that pass the stop line within the green count. Written with "
+                    "`measure.string_stability: on`, as the next three columns",
+         .value = [](const MeasuredLight& light) { return light.summary.stability.linf_ratio; },
+         .summary_decimals = 4},
+        {.column = "string_linf_from_head",
+         .extent = "green",
+         .meaning = "the same ratio to the first vehicle of the lane",
+         .value = [](const MeasuredLight& light) { return light.summary.stability.linf_from_head; },
+         .summary_decimals = 4},
+        {.column = "string_gap_error_m",
+         .unit = "m",
+         .extent = "green",
+         .meaning = "largest difference between the net gap of these vehicles and their spacing policy",
+         .value = [](const MeasuredLight& light) { return light.summary.stability.gap_error_m; },
+         .summary_decimals = 4},
+        {.column = "string_smallest_gap_m",
+         .unit = "m",
+         .extent = "green",
+         .meaning = "smallest net gap of these vehicles",
+         .value = [](const MeasuredLight& light) { return light.summary.stability.smallest_gap_m; },
+         .summary_decimals = 4}};
+    for (Metric<MeasuredLight>& metric : metrics) metric.asked_for = asks_for_stability;
+    return metrics;
+}
+
 }  // namespace
 
 const MetricList<MeasuredLight>& single_light_metrics() {
     static const MetricList<MeasuredLight> kMetrics = joined_lists<MeasuredLight>(
         {passage_metrics(), numbered_green_metrics(green_metrics()), emptying_metrics(), steady_state_metrics(),
-         stop_line_metrics(), queue_metrics(),
+         stop_line_metrics(), queue_metrics(), stability_metrics(),
          count_metrics<MeasuredLight>({"vehicles_entered", "vehicles_exited", "overlaps", "red_entries",
                                        "forced_red_entries", "lost_vehicles", "state_hash"})});
     return kMetrics;

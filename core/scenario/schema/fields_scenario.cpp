@@ -100,6 +100,11 @@ void check_time_space(const Scenario& scenario, Checker& check) {
                 "value " + measure.time_space_side + " has no effect without measure.time_space");
 }
 
+void check_string_stability(const Scenario& scenario, Checker& check) {
+    if (scenario.measure.string_stability == "off" || network_kind(scenario.network).run == kRunAsSingleLight) return;
+    check.error("measure.string_stability", "is for a single light only (network.kind: approach)");
+}
+
 void check_controller(const Scenario& scenario, Checker& check) {
     const int groups = network_kind(scenario.network).signal_groups;
     const SignalController& controller = find_signal_controller(scenario.signal.controller);
@@ -123,6 +128,7 @@ void check_scenario(const Scenario& scenario, Checker& check) {
     check_approaches(scenario, check);
     check_measured_area(scenario, check);
     check_time_space(scenario, check);
+    check_string_stability(scenario, check);
 }
 
 }  // namespace
@@ -138,6 +144,9 @@ const Table& measure_table() {
                 true),
             text<&S::baseline>("baseline", TextField::Rule::name,
                                "population with which the others are compared; absent: no improvements are computed"),
+            choice<&S::string_stability>(
+                "string_stability", {"off", "on"},
+                "single light: measure whether accelerations grow from vehicle to vehicle when the queue starts"),
             whole_number<&S::warmup_cycles>("warmup_cycles", {0, 1000},
                                             "single intersection: signal cycles before the measurement"),
             whole_number<&S::cycles>("cycles", {1, 100'000},

@@ -14,6 +14,7 @@
 #include "sim/state/model.h"
 #include "sim/state/partition.h"
 #include "sim/state/plan/network_plan.h"
+#include "sim/state/prescribed_acceleration.h"
 #include "sim/state/queue_state.h"
 #include "sim/state/run_records.h"
 #include "sim/state/stop_line_state.h"
@@ -47,6 +48,7 @@ struct State {
     DetectorState detectors;
     InsertionState insertion;
     CongestionState congestion;
+    PrescribedAcceleration prescribed;  // applies to all later steps, until the program changes it
     RunRecords records;
 
     explicit State(const Model& model) : plan(model) {}

@@ -15,7 +15,7 @@ namespace stopline {
 namespace {
 
 // Appends a lane and its demands to a group. A demand is an acceleration that a vehicle must not exceed because of a
-// stop line, yielding, a hidden leader (perception/hidden_leaders.h) or the alignment with a gap.
+// stop line, yielding, a hidden leader (perception/hidden_leaders.h), the alignment with a gap or a prescription.
 // `hidden_leader_demands` lists the demands because of hidden leaders, in the order of slots. The function takes the
 // demands on the vehicles of this lane off this list.
 void add_lane(const Model& model, const State& state, int lane, std::span<const BrakingDemand>& hidden_leader_demands,
@@ -48,6 +48,9 @@ void add_lane(const Model& model, const State& state, int lane, std::span<const 
         const double acceleration_mps2 =
             (alignment.target_speed_mps - v.speed_mps[at(alignment.slot)]) / kTimeToTarget_s;
         demand(alignment.slot, std::max(acceleration_mps2, -GapAlignment::kDeceleration_mps2));
+    }
+    if (state.prescribed.vehicle >= 0 && v.id[at(block.first)] == state.prescribed.vehicle) {
+        demand(block.first, state.prescribed.acceleration_mps2);
     }
     group.lanes.push_back(
         {block.first, block.past_last(), plan.next_limit_m, plan.limit_mps, static_cast<double>(plan.sine)});

@@ -50,6 +50,9 @@ public:
         always_shares_ = false;
     }
 
+    // Limits the acceleration of one vehicle in all later steps. `vehicle` is its id; -1 ends the limit.
+    void prescribe(const PrescribedAcceleration& prescribed) { state_.prescribed = prescribed; }
+
     // Runs all phases of one step.
     void step();
     // Runs steps up to a time, then counts the lost vehicles (Violations::lost_vehicles).

@@ -60,7 +60,7 @@ run imported "$work/imported.yaml" "${network[@]}"
 check_all imported network 7
 run intersection "$STOPLINE_SOURCE/scenarios/intersection.yaml" "${brief[@]}" --set measure.cycles=1
 check_all intersection intersection 3
-run light "$STOPLINE_SOURCE/scenarios/first_steps.yaml" "${brief[@]}"
+run light "$STOPLINE_SOURCE/scenarios/first_steps.yaml" "${brief[@]}" --set measure.string_stability=on
 check_all light single_light 4
 while read -r table; do check_complete "$table"; done < \
     <(grep -oE '^## (network|intersection|single_light)/.*' "$work/page" | cut -c4-)
@@ -84,12 +84,20 @@ sweep of_grid "$STOPLINE_SOURCE/scenarios/grid.yaml" "${network[@]}" --set netwo
 sweep of_streets "$STOPLINE_SOURCE/scenarios/berlin.yaml" "${network[@]}"
 sweep of_intersection "$STOPLINE_SOURCE/scenarios/intersection.yaml" --set measure.cycles=1 --set 'populations=[CDG]' \
     --set measure.baseline=CDG
-sweep of_light "$STOPLINE_SOURCE/scenarios/first_steps.yaml"
+sweep of_light "$STOPLINE_SOURCE/scenarios/first_steps.yaml" --set measure.string_stability=on
 check_complete sweep/NAME.csv
 check_complete sweep/NAME_means.csv
 
 "$STOPLINE_BIN/stopline-startup" --no-figures --output "$work/startup" >"$work/stdout" || fail "stopline-startup: exit code $?"
 check_all startup startup 2
+
+"$STOPLINE_BIN/stopline-strings" --no-figures --population CTG-Ref --vehicles 3 \
+    --frequency 2 --output "$work/strings" >"$work/stdout" || fail "stopline-strings: exit code $?"
+"$STOPLINE_BIN/stopline-strings" --no-figures --population CTG-Ref --vehicles 3 \
+    --frequency 2 --sweep --delays '20 ms' --time-gaps '1 s' --output "$work/strings" >"$work/stdout" ||
+    fail "stopline-strings --sweep: exit code $?"
+check_all strings strings 5
+for table in summary positions gains sweep border; do check_complete "strings/$table.csv"; done
 
 # Tests the check itself: a column without a description must be reported.
 head -n 1 "$work/grid/delays.csv" | sed 's/$/,new_column/' >"$work/extra.csv"

@@ -35,7 +35,9 @@ refuses() {
 run="$STOPLINE_BIN/stopline-run"
 scorecard="$STOPLINE_BIN/stopline-scorecard"
 
-for program in "$run" "$scorecard" "$STOPLINE_BIN/stopline-calibrate"; do
+strings="$STOPLINE_BIN/stopline-strings"
+
+for program in "$run" "$scorecard" "$STOPLINE_BIN/stopline-calibrate" "$strings"; do
     prints "--help" "--version" "--threads" "--seed" "--output" "Examples:" "Exit codes: 0 done, 1 " -- "$program" --help
     prints "stopline 0." -- "$program" --version
     refuses "--nonsense" -- "$program" --nonsense
@@ -100,5 +102,19 @@ refuses "whole number of steps" -- "$run" "$scenario" --trajectories --interval 
 refuses "whole number of steps" -- "$run" "$scenario" --trajectories --interval "0 s"
 refuses "no rows of section 'XI'" -- "$scorecard" --section XI
 refuses "--step: value 'III' is not allowed; allowed: I, II, both" -- "$STOPLINE_BIN/stopline-calibrate" --step III
+
+refuses "network.kind" -- "$strings" "$STOPLINE_SOURCE/scenarios/grid.yaml"
+refuses "fidelity" -- "$strings" "$scenario" --set fidelity=meso
+refuses "--speed: value '10' has no unit" -- "$strings" "$scenario" --speed 10
+refuses "--speed: value '90 km/h' is not allowed; allowed: 5 km/h to 50 km/h" -- "$strings" "$scenario" --speed "90 km/h"
+refuses "--amplitude: value '9 m/s2' is not allowed" -- "$strings" "$scenario" --amplitude "9 m/s2"
+refuses "--frequency: value 'fast'" -- "$strings" "$scenario" --frequency fast
+refuses "--frequency is for swings only" -- "$strings" "$scenario" --frequency 1 --manoeuvre brake
+refuses "--sweep needs swings" -- "$strings" "$scenario" --sweep --manoeuvre start
+refuses "--vehicles" -- "$strings" "$scenario" --vehicles 1
+refuses "no population or policy 'CDX'; did you mean 'CDG'?" -- "$strings" "$scenario" --population CDX
+refuses "has no time gap" -- "$strings" "$scenario" --sweep --population CDG
+refuses "has a value twice" -- "$strings" "$scenario" --sweep --population CTG-Ref \
+    --delays "20 ms, 20 ms"
 
 exit $((failures > 0))

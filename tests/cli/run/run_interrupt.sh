@@ -36,6 +36,7 @@ interrupted() {
 }
 interrupted 1 stopline-scorecard --section IV
 interrupted 1 stopline-startup --fit
+interrupted 1 stopline-strings --sweep --population CTG-Ref
 
 "$run" "$STOPLINE_SOURCE/scenarios/first_steps.yaml" --no-figures --output "$work/short" >/dev/null 2>"$work/stderr"
 [ -s "$work/stderr" ] && fail "short work shows progress: $(cat "$work/stderr")"
