@@ -64,26 +64,37 @@ private:
     double standstill_gap_m(int slot) const { return arrays_.standstill_gap_m[at(slot)]; }
     double length_m(int slot) const { return arrays_.length_m[at(slot)]; }
 
-    // Returns true if the vehicle waits before the conflict area that starts at `area_m`, or can still stop there. A
-    // vehicle that already brakes for this area counts, although its stop can deviate slightly from the planned one.
+    // Returns true if the vehicle waits before the conflict area that starts at `area_m`, or can still stop there.
     bool can_wait_before(int slot, double front_m, double area_m) const {
-        if (front_m > area_m) return false;
-        if (is_crawling(slot)) return true;
+        return front_m <= area_m && (brakes_for(slot, area_m) || can_stop(slot, area_m - front_m));
+    }
+
+    // Returns true if the vehicle already brakes for the area, or for a position further upstream. Such a vehicle can
+    // wait before the area, although its stop can deviate slightly from the planned one.
+    bool brakes_for(int slot, double area_m) const {
         const VehicleRecord& record = arrays_.record[at(slot)];
-        if (record.yield_tick >= state_.tick - 1 && record.yield_position_m <= static_cast<float>(area_m)) return true;
-        return can_stop_within(model_, arrays_.speed_mps[at(slot)], area_m - margin_m(slot) - front_m);
+        return record.yield_tick >= state_.tick - 1 && record.yield_position_m <= static_cast<float>(area_m);
+    }
+
+    // Returns true if the vehicle can stop before a conflict area at this distance. Only a crawling vehicle may use the
+    // margin before the area. In the mesoscale mode, braking starts at once.
+    bool can_stop(int slot, double distance_m) const {
+        const double room_m = distance_m - (is_crawling(slot) ? 0.0 : margin_m(slot));
+        if (model_.meso) return can_stop_within(model_, arrays_.speed_mps[at(slot)], room_m);
+        const DriverPlan& driver = model_.driver_of(arrays_.policy[at(slot)]);
+        return can_stop_after_response(model_, arrays_, slot, room_m, driver.tables.cacc.deceleration_emergency_mps2);
     }
 
     // Calls `visit` with a ChainLink for each vehicle of connection `conflict.other` that can block the conflict area:
     //   - A crawling vehicle in the area. It blocks the area wherever it stops next.
-    //   - A faster vehicle that is in the area or can no longer stop before it. It blocks the area if it stops there.
+    //   - Another vehicle that is in the area or can no longer stop before it. It blocks the area if it stops there.
     template <class Visit>
     void for_each_holder(const Conflict& conflict, const Visit& visit) const {
         for (const JunctionOccupant& occupant : state_.junctions.occupants[at(conflict.other)]) {
             const int slot = occupant.slot;
             if (occupant.rear_m >= conflict.other_to_m || slot == v_.slot) continue;
-            if (is_crawling(slot)) {
-                if (occupant.front_m > conflict.other_from_m) visit(ChainLink{slot});
+            if (occupant.front_m > conflict.other_from_m && is_crawling(slot)) {
+                visit(ChainLink{slot});
             } else if (must_enter(slot, occupant.front_m, conflict.other_from_m)) {
                 visit(ChainLink{slot, conflict.other_from_m, conflict.other_to_m + length_m(slot)});
             }
@@ -97,24 +108,25 @@ private:
         const int origin = state_.plan.lane(conflict.other).origin;
         const LanePlan& lane = state_.plan.lane(origin);
         const LaneBlock& block = state_.blocks[at(origin)];
-        for (int slot = block.first; slot < block.past_last() && slot != state_.stop_lines.stop_slot[at(origin)];
-             ++slot) {
+        for (int slot = block.first; slot < block.past_last(); ++slot) {
+            if (slot == state_.stop_lines.stop_slot[at(origin)]) return;
             if (arrays_.position_m[at(slot)] > lane.stop_line_m) continue;
-            const double front_m = arrays_.position_m[at(slot)] - lane.length_m;
-            if (is_crawling(slot) || !must_enter(slot, front_m, conflict.other_from_m)) return;
+            if (!must_enter(slot, arrays_.position_m[at(slot)] - lane.length_m, conflict.other_from_m)) return;
             if (arrays_.next_lane[at(slot)] != conflict.other || slot == v_.slot) continue;
             visit(ChainLink{slot, conflict.other_from_m, conflict.other_to_m + length_m(slot)});
         }
     }
 
-    // Returns true if the vehicle, which does not crawl, is past the start of the area or can no longer stop before it.
-    // If the candidate and another vehicle can stop for the last time in the same step, only one of them must see the
-    // other one as unable to stop: the candidate with the higher id looks two steps ahead.
+    // Returns true if the vehicle is past the start of the area or can no longer stop before it. If the candidate and
+    // another vehicle can stop for the last time in the same step, only one of them must see the other one as unable to
+    // stop: the candidate with the higher id reduces the distance of the other one by a reserve.
     bool must_enter(int slot, double front_m, double area_m) const {
-        constexpr double kStepsAhead = 2.0;
-        const bool looks_ahead = arrays_.id[at(slot)] < arrays_.id[at(v_.slot)];
-        const double ahead_m = looks_ahead ? kStepsAhead * model_.step_s * arrays_.speed_mps[at(slot)] : 0.0;
-        return !can_wait_before(slot, front_m + ahead_m, area_m);
+        if (!can_wait_before(slot, front_m, area_m)) return true;
+        if (arrays_.id[at(slot)] > arrays_.id[at(v_.slot)] || brakes_for(slot, area_m)) return false;
+        constexpr double kReserve_s = 0.3;
+        const double acceleration_mps2 = std::max(static_cast<double>(arrays_.acceleration_mps2[at(slot)]), 0.0);
+        const double soon_mps = arrays_.speed_mps[at(slot)] + kReserve_s * acceleration_mps2;
+        return !can_stop(slot, area_m - front_m - (kReserve_s + 2.0 * model_.step_s) * soon_mps);
     }
 
     // Checks the areas that the candidate would block if it stopped at `place_m` because of `blocker`.

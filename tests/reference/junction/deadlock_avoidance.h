@@ -50,43 +50,63 @@ private:
 
     const std::vector<Conflict>& conflicts(int connection) const { return w_.lane(connection).conflicts; }
 
-    // Returns true if the vehicle waits or can still wait before the area that starts at `area_m`.
-    bool can_wait_before(const Vehicle& v, double front_m, double area_m) const {
-        if (front_m > area_m) return false;
-        const bool brakes_for_it = v.yield_tick >= w_.tick - 1 && stored(v.yield_position_m) <= stored(area_m);
-        if (v.is_slow() || brakes_for_it) return true;
-        constexpr double kResponse_s = 0.3;
-        const double stop_m = emergency_braking_m(w_, v.speed_mps) + (w_.is_meso ? 0.0 : kResponse_s * v.speed_mps);
-        return stop_m <= area_m - w_.driver(v).give_way.margin_m - front_m;
+    bool brakes_for(const Vehicle& v, double area_m) const {
+        return v.yield_tick >= w_.tick - 1 && stored(v.yield_position_m) <= stored(area_m);
     }
 
-    // Returns true if a vehicle that is not slow is past the start of the area or can no longer stop before it. Of two
-    // vehicles that can stop for the last time in this step, the candidate sees only the one with the lower id as
-    // unable to stop.
+    // Returns true if the vehicle can stop before an area. A slow vehicle may use the margin. In full dynamics, the
+    // vehicle keeps its present acceleration until the brake responds.
+    bool can_stop(const Vehicle& v, double distance_m) const {
+        const double room_m = distance_m - (v.is_slow() ? 0.0 : w_.driver(v).give_way.margin_m);
+        if (w_.is_meso) return emergency_braking_m(w_, v.speed_mps) <= room_m;
+        const CaccSettings& cacc = w_.driver(v).cacc;
+        const double present_mps2 = std::max(v.acceleration_mps2, 0.0);
+        const double change_mps2 = std::max(present_mps2, v.request_mps2) + cacc.deceleration_emergency_mps2;
+        const double delay_s = w_.kind(v).vehicle.settings.brake_lag_s + 0.5 * change_mps2 / cacc.jerk_down_mps3;
+        const double speed_mps = v.speed_mps + present_mps2 * delay_s;
+        const double delay_m = (v.speed_mps + 0.5 * present_mps2 * delay_s) * delay_s;
+        return speed_mps * speed_mps <= 2.0 * cacc.deceleration_emergency_mps2 * (room_m - delay_m);
+    }
+
+    // Returns true if the vehicle waits or can still wait before the area that starts at `area_m`.
+    bool can_wait_before(const Vehicle& v, double front_m, double area_m) const {
+        return front_m <= area_m && (brakes_for(v, area_m) || can_stop(v, area_m - front_m));
+    }
+
+    // Returns true if the vehicle is past the start of the area or can no longer stop before it. Of two vehicles that
+    // can stop for the last time in this step, the candidate sees only the one with the lower id as unable to stop.
     bool must_enter(const Vehicle& v, double front_m, double area_m) const {
-        const double ahead_m = v.id < c_.vehicle->id ? 2.0 * w_.step_s * v.speed_mps : 0.0;
-        return !can_wait_before(v, front_m + ahead_m, area_m);
+        if (!can_wait_before(v, front_m, area_m)) return true;
+        if (v.id > c_.vehicle->id || brakes_for(v, area_m)) return false;
+        const double soon_mps = v.speed_mps + 0.3 * std::max(v.acceleration_mps2, 0.0);
+        return !can_stop(v, area_m - front_m - (0.3 + 2.0 * w_.step_s) * soon_mps);
     }
 
     // Returns the vehicles of connection `conflict.other` that can block the area. A slow vehicle in the area blocks it
-    // in any case. A faster vehicle that is in the area, or must enter it, blocks it if it stops there.
+    // in any case. Another vehicle that is in the area, or must enter it, blocks it if it stops there.
     std::vector<Link> holders(const Conflict& conflict) const {
         std::vector<Link> found;
-        const auto stopping_there = [&](Vehicle& v) {
-            return Link{&v, conflict.other_from_m, conflict.other_to_m + v.length_m};
+        const auto add_if_it_enters = [&](Vehicle& v, double front_m) {
+            if (!must_enter(v, front_m, conflict.other_from_m)) return false;
+            found.push_back({&v, conflict.other_from_m, conflict.other_to_m + v.length_m});
+            return true;
         };
         for (const Occupant& other : w_.occupants[static_cast<std::size_t>(conflict.other)]) {
             Vehicle& v = *other.vehicle;
             if (other.rear_m >= conflict.other_to_m || &v == c_.vehicle) continue;
-            if (v.is_slow() && other.front_m > conflict.other_from_m) found.push_back({&v});
-            if (!v.is_slow() && must_enter(v, other.front_m, conflict.other_from_m)) found.push_back(stopping_there(v));
+            if (v.is_slow() && other.front_m > conflict.other_from_m) {
+                found.push_back({&v});
+            } else {
+                add_if_it_enters(v, other.front_m);
+            }
         }
         Lane& approach = w_.lane(w_.lane(conflict.other).origin);
         for (Vehicle& v : approach.vehicles) {
             if (static_cast<std::ptrdiff_t>(v.index) == approach.stop_index) break;
             if (v.position_m > approach.stop_line_m) continue;
-            if (v.is_slow() || !must_enter(v, v.position_m - approach.length_m, conflict.other_from_m)) break;
-            if (v.next_lane == conflict.other && &v != c_.vehicle) found.push_back(stopping_there(v));
+            const double front_m = v.position_m - approach.length_m;
+            if (!must_enter(v, front_m, conflict.other_from_m)) break;
+            if (v.next_lane == conflict.other && &v != c_.vehicle) add_if_it_enters(v, front_m);
         }
         return found;
     }
