@@ -303,5 +303,34 @@ populations:
     EXPECT_GT(kept_out_steps, 10);
 }
 
+// Left-turning lorries from four sides meet. The two from the east and the west arrive at the same time and at the same
+// speed, and each of them could close the cycle of four.
+TEST(LongVehicles, OfFourLeftTurnersOneWaits) {
+    const Scenario scenario = parse_scenario(R"(
+seed: 86
+step: 20 ms
+duration: 400 s
+network:
+  kind: intersection
+  intersection:
+    lanes: [{movements: left}, {movements: straight+right}]
+    radius: 23 m
+    approach_length: 297 m
+    exit_length: 51 m
+    speed_limit: 30 km/h
+    turn_speed: 6 m/s
+signal: {green: 12 s, yellow: 3 s, all_red: 1 s}
+demand: {kind: rate, inflow: 701 veh/h, right: 10 %}
+driver: {base: startup_kit, free_drive: {hesitation: 0 s}}
+populations:
+- {name: X, pattern: random, components: [{policy: CTG-HCM, share: 100 %, vehicle: articulated_lorry_35t, driver: lorry}]}
+)",
+                                             "test.yaml");
+    const IntersectionResult result = run_intersection(scenario, 0);
+    EXPECT_TRUE(result.violations.none());
+    EXPECT_EQ(result.violations.deadlocks, 0);
+    EXPECT_GT(result.throughput_veh_h, 700.0);
+}
+
 }  // namespace
 }  // namespace stopline

@@ -73,6 +73,14 @@ protected:
     std::size_t slot_on(const std::string& connection) const { return track_.slot(lane(connection), 0); }
     VehicleArrays& vehicles() { return track_.mutable_state().vehicles; }
 
+    // Places a driving vehicle of the same length behind the vehicle on a connection.
+    void add_follower(const std::string& connection, double front_m, double speed_mps) {
+        track_.place(lane(connection), front_m, speed_mps);
+        const std::size_t follower = track_.slot(lane(connection), 1);
+        vehicles().record[follower] = vehicles().record[slot_on(connection)];
+        vehicles().length_m[follower] = vehicles().length_m[slot_on(connection)];
+    }
+
     // Lets a vehicle drive towards the area that it shares with connection `next`.
     void drive_towards(const std::string& connection, const std::string& next, double distance_m, double speed_mps) {
         const std::size_t slot = slot_on(connection);
@@ -91,11 +99,12 @@ protected:
     // The area that the vehicle from the north must not enter.
     Conflict entered() const { return conflict("north_0_straight", "east_0_straight"); }
 
-    KeptOutArea kept_out_area(const std::string& connection = "north_0_straight") {
+    // Returns the area that the k-th vehicle on a connection must not enter.
+    KeptOutArea kept_out_area(const std::string& connection = "north_0_straight", int k = 0) {
         State& state = track_.mutable_state();
         find_occupied_lanes(state, state.queues, state.partitions[0]);
         find_junction_occupants(state, state.junctions, state.partitions[0]);
-        const auto slot = static_cast<int>(slot_on(connection));
+        const auto slot = static_cast<int>(track_.slot(lane(connection), k));
         const double speed_mps = state.vehicles.speed_mps[at(slot)];
         const Candidate candidate{slot, state.vehicles.position_m[at(slot)], true, speed_mps < 1.0};
         return area_to_keep_clear(track_.model(), state, lane(connection), candidate);
@@ -195,6 +204,23 @@ TEST_P(DeadlockAvoidance, AVehicleThatClearsTheAreaBeforeItStopsIsNoPartOfTheCyc
     EXPECT_EQ(kept_out_area().from_m, conflict("north_0_straight", "east_1_straight").from_m);
     vehicles().length_m[slot_on("south_0_straight")] = 2.0F;
     EXPECT_FALSE(kept_out_area().exists());
+    // Another short vehicle follows the first one and must stop further upstream.
+    add_follower("south_0_straight", conflict("south_0_straight", "east_1_straight").from_m - 6.5, 1.5);
+    EXPECT_TRUE(kept_out_area().exists());
+}
+
+// A short vehicle from the north follows another one, which must stop in its path.
+TEST_P(DeadlockAvoidance, AVehicleBehindADrivingLeaderStaysOutOfTheCycle) {
+    drive_towards("east_0_straight", "north_0_straight", -20.0, 5.0);  // this vehicle leaves the intersection
+    place_before("east_1_straight", "north_0_straight");
+    drive_towards("south_0_straight", "east_1_straight", 2.0, 1.5);
+    vehicles().length_m[slot_on("north_0_straight")] = 1.5F;
+    drive_towards("north_0_straight", "west_0_straight", 1.5, 1.0);
+    const double to_area_m = conflict("north_0_straight", "east_1_straight").from_m;
+    add_follower("north_0_straight", to_area_m - 1.5, 1.0);
+    const KeptOutArea area = kept_out_area("north_0_straight", 1);
+    EXPECT_EQ(area.from_m, to_area_m);
+    EXPECT_EQ(area.crossing_slot, static_cast<int>(slot_on("east_1_straight")));
 }
 
 // The vehicles from the north and the south approach at the same speed and distance. If both drove on, they would close
