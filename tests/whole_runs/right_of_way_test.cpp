@@ -255,5 +255,82 @@ populations:
     EXPECT_GT(result.throughput_veh_h, 1100.0);
 }
 
+// Lorries meet while they drive: a left-turning lorry from the north reaches the path of a lorry from the south, which
+// can no longer stop before the path of a lorry from the east. The rear of the latter blocks the exit of the first one.
+// So the lorry from the north must wait until the one from the south has passed.
+TEST(LongVehicles, DoNotDriveIntoEachOthersPath) {
+    const Scenario scenario = parse_scenario(R"(
+seed: 619
+step: 20 ms
+duration: 400 s
+network:
+  kind: intersection
+  intersection:
+    lanes: [{movements: left}, {movements: straight+right}]
+    radius: 23 m
+    approach_length: 174 m
+    exit_length: 97 m
+    speed_limit: 70 km/h
+    turn_speed: 6 m/s
+signal: {green: 12 s, yellow: 4 s, all_red: 1 s}
+demand: {kind: rate, inflow: 1816 veh/h, right: 0 %}
+driver: {base: startup_kit, free_drive: {hesitation: 0.5 s}}
+populations:
+- name: X
+  pattern: random
+  components:
+  - {policy: CTG-Ref, share: 34 %, vehicle: rigid_lorry_12t, driver: lorry}
+  - {policy: CTG-Ref, share: 33 %, vehicle: articulated_lorry_35t, driver: lorry}
+  - {policy: CTG-Ref, share: 33 %, vehicle: articulated_lorry_35t, driver: lorry}
+)",
+                                             "test.yaml");
+    int kept_out_steps = 0;  // vehicle steps in which a driving lorry must not close a cycle
+    const auto count = [&](const Simulation& simulation) {
+        const State& state = simulation.state();
+        for (const YieldStops& stops : state.junctions.yield_stops) {
+            for (int k = 0; k < stops.count; ++k) {
+                const YieldStop& stop = stops.stops[at(k)];
+                const bool is_driving = state.vehicles.speed_mps[at(stop.slot)] > 1.0;
+                if (stop.reason == YieldReason::deadlock && is_driving) ++kept_out_steps;
+            }
+        }
+        return true;
+    };
+    const IntersectionResult result = run_intersection(scenario, 0, count);
+    EXPECT_TRUE(result.violations.none());
+    EXPECT_EQ(result.violations.deadlocks, 0);
+    EXPECT_GT(result.throughput_veh_h, 900.0);
+    EXPECT_GT(kept_out_steps, 10);
+}
+
+// Left-turning lorries from four sides meet. The two from the east and the west arrive at the same time and at the same
+// speed, and each of them could close the cycle of four.
+TEST(LongVehicles, OfFourLeftTurnersOneWaits) {
+    const Scenario scenario = parse_scenario(R"(
+seed: 86
+step: 20 ms
+duration: 400 s
+network:
+  kind: intersection
+  intersection:
+    lanes: [{movements: left}, {movements: straight+right}]
+    radius: 23 m
+    approach_length: 297 m
+    exit_length: 51 m
+    speed_limit: 30 km/h
+    turn_speed: 6 m/s
+signal: {green: 12 s, yellow: 3 s, all_red: 1 s}
+demand: {kind: rate, inflow: 701 veh/h, right: 10 %}
+driver: {base: startup_kit, free_drive: {hesitation: 0 s}}
+populations:
+- {name: X, pattern: random, components: [{policy: CTG-HCM, share: 100 %, vehicle: articulated_lorry_35t, driver: lorry}]}
+)",
+                                             "test.yaml");
+    const IntersectionResult result = run_intersection(scenario, 0);
+    EXPECT_TRUE(result.violations.none());
+    EXPECT_EQ(result.violations.deadlocks, 0);
+    EXPECT_GT(result.throughput_veh_h, 700.0);
+}
+
 }  // namespace
 }  // namespace stopline

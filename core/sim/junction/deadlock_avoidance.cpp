@@ -21,6 +21,17 @@ struct OnConnection {
     double front_m = 0.0;  // front position, from the start of the connection
 };
 
+// A vehicle of a chain in which each vehicle is blocked by the next one. The vehicle blocks the previous one of the
+// chain if it stops with its front between two positions.
+struct ChainLink {
+    int slot = -1;
+    double from_m = -kNoWait_m;  // from the start of the vehicle's connection
+    double to_m = kNoWait_m;
+
+    bool blocks_from(double front_m) const { return front_m > from_m && front_m < to_m; }
+    bool operator==(const ChainLink&) const = default;
+};
+
 class CycleSearch {
 public:
     CycleSearch(const Model& model, const State& state, int lane, const Candidate& v)
@@ -29,87 +40,184 @@ public:
           arrays_(state.vehicles),
           conflicts_(state.plan.conflicts(lane)),
           v_(v),
-          margin_m_(model.driver_of(state.vehicles.policy[at(v.slot)]).give_way.margin_m),
+          margin_m_(margin_m(v.slot)),
           length_m_(state.vehicles.length_m[at(v.slot)]),
           intersection_(state.plan.intersection_of(lane)) {
         for (const Conflict& conflict : conflicts_) {
             if (conflict.from_m < v.front_m) continue;
-            for_each_in_area(conflict, [&](const JunctionOccupant& occupant) {
-                check_stop(conflict.from_m - margin_m_, occupant.slot);
-            });
+            for_each_holder(conflict, [&](const ChainLink& link) { check_stop(conflict.from_m - margin_m_, link); });
         }
-        for (const JunctionOccupant& occupant : state.junctions.occupants[at(lane)]) {
-            if (occupant.rear_m < v.front_m || !is_crawling(occupant.slot)) continue;
-            check_stop(occupant.rear_m - arrays_.standstill_gap_m[at(v.slot)], occupant.slot);
+        int leader = -1;
+        for (const JunctionOccupant& occupant : state_.junctions.occupants[at(lane)]) {
+            if (occupant.rear_m < v.front_m) continue;
+            leader = occupant.slot;
+            if (is_crawling(leader)) check_stop(occupant.rear_m - standstill_gap_m(v.slot), {leader});
         }
+        if (leader >= 0 && !is_crawling(leader)) check_stop_behind(leader);
     }
 
     const KeptOutArea& result() const { return result_; }
 
 private:
     bool is_crawling(int slot) const { return arrays_.speed_mps[at(slot)] < kCrawlingSpeed_mps; }
+    double margin_m(int slot) const { return model_.driver_of(arrays_.policy[at(slot)]).give_way.margin_m; }
+    double standstill_gap_m(int slot) const { return arrays_.standstill_gap_m[at(slot)]; }
+    double length_m(int slot) const { return arrays_.length_m[at(slot)]; }
 
-    // Calls `visit` for each crawling vehicle of connection `conflict.other` that is in the conflict area.
+    // Returns true if the vehicle waits before the conflict area that starts at `area_m`, or can still stop there.
+    bool can_wait_before(int slot, double front_m, double area_m) const {
+        return front_m <= area_m && (brakes_for(slot, area_m) || can_stop(slot, area_m - front_m));
+    }
+
+    // Returns true if the vehicle already brakes for the area, or for a position further upstream. Such a vehicle can
+    // wait before the area, although its stop can deviate slightly from the planned one.
+    bool brakes_for(int slot, double area_m) const {
+        const VehicleRecord& record = arrays_.record[at(slot)];
+        return record.yield_tick >= state_.tick - 1 && record.yield_position_m <= static_cast<float>(area_m);
+    }
+
+    // Returns true if the vehicle can stop before a conflict area at this distance. Only a crawling vehicle may use the
+    // margin before the area. In the mesoscale mode, braking starts at once.
+    bool can_stop(int slot, double distance_m) const {
+        const double room_m = distance_m - (is_crawling(slot) ? 0.0 : margin_m(slot));
+        if (model_.meso) return can_stop_within(model_, arrays_.speed_mps[at(slot)], room_m);
+        const DriverPlan& driver = model_.driver_of(arrays_.policy[at(slot)]);
+        return can_stop_after_response(model_, arrays_, slot, room_m, driver.tables.cacc.deceleration_emergency_mps2);
+    }
+
+    // Calls `visit` with a ChainLink for each vehicle of connection `conflict.other` that can block the conflict area:
+    //   - A crawling vehicle in the area. It blocks the area wherever it stops next.
+    //   - Another vehicle that is in the area or can no longer stop before it. It blocks the area if it stops there.
     template <class Visit>
-    void for_each_in_area(const Conflict& conflict, const Visit& visit) const {
+    void for_each_holder(const Conflict& conflict, const Visit& visit) const {
         for (const JunctionOccupant& occupant : state_.junctions.occupants[at(conflict.other)]) {
-            const bool is_in_area = occupant.front_m > conflict.other_from_m && occupant.rear_m < conflict.other_to_m;
-            if (is_in_area && is_crawling(occupant.slot)) visit(occupant);
+            const int slot = occupant.slot;
+            if (occupant.rear_m >= conflict.other_to_m || slot == v_.slot) continue;
+            if (occupant.front_m > conflict.other_from_m && is_crawling(slot)) {
+                visit(ChainLink{slot});
+            } else if (must_enter(slot, occupant.front_m, conflict.other_from_m)) {
+                visit(ChainLink{slot, conflict.other_from_m, conflict.other_to_m + length_m(slot)});
+            }
+        }
+        for_each_approaching_holder(conflict, visit);
+    }
+
+    // Does the same as for_each_holder() for the vehicles upstream of the stop line.
+    template <class Visit>
+    void for_each_approaching_holder(const Conflict& conflict, const Visit& visit) const {
+        const int origin = state_.plan.lane(conflict.other).origin;
+        const LanePlan& lane = state_.plan.lane(origin);
+        const LaneBlock& block = state_.blocks[at(origin)];
+        for (int slot = block.first; slot < block.past_last(); ++slot) {
+            if (slot == state_.stop_lines.stop_slot[at(origin)]) return;
+            if (arrays_.position_m[at(slot)] > lane.stop_line_m) continue;
+            if (!must_enter(slot, arrays_.position_m[at(slot)] - lane.length_m, conflict.other_from_m)) return;
+            if (arrays_.next_lane[at(slot)] != conflict.other || slot == v_.slot) continue;
+            visit(ChainLink{slot, conflict.other_from_m, conflict.other_to_m + length_m(slot)});
         }
     }
 
-    // Checks the areas that the candidate would block if it stopped at `place_m`. `blocker`: slot of the vehicle that
-    // the candidate would wait for. If the candidate must not enter one of these areas, it stops before that area. This
-    // stop can close a cycle as well, so the function then checks it.
-    void check_stop(double place_m, int blocker) {
+    // Returns true if the vehicle is past the start of the area or can no longer stop before it. If the candidate and
+    // another vehicle can stop for the last time in the same step, only one of them must see the other one as unable to
+    // stop: the candidate with the higher id reduces the distance of the other one by a reserve.
+    bool must_enter(int slot, double front_m, double area_m) const {
+        if (!can_wait_before(slot, front_m, area_m)) return true;
+        if (arrays_.id[at(slot)] > arrays_.id[at(v_.slot)] || brakes_for(slot, area_m)) return false;
+        constexpr double kReserve_s = 0.3;
+        const double acceleration_mps2 = std::max(static_cast<double>(arrays_.acceleration_mps2[at(slot)]), 0.0);
+        const double soon_mps = arrays_.speed_mps[at(slot)] + kReserve_s * acceleration_mps2;
+        return !can_stop(slot, area_m - front_m - (kReserve_s + 2.0 * model_.step_s) * soon_mps);
+    }
+
+    // Checks the areas that the candidate would block if it stopped at `place_m` because of `blocker`.
+    void check_stop(double place_m, const ChainLink& blocker) {
         for (const Conflict& area : conflicts_) {
             if (area.from_m >= std::min(place_m, result_.from_m)) return;
-            const double stop_m = area.from_m - margin_m_;
-            if (area.from_m < v_.front_m || area.to_m <= place_m - length_m_) continue;
-            if (!v_.stopped && !can_stop_within(model_, arrays_.speed_mps[at(v_.slot)], stop_m - v_.front_m)) continue;
-            const int crossing_slot = find_crossing(area, blocker);
-            if (crossing_slot < 0) continue;
-            result_ = {area.from_m, crossing_slot};
-            check_stop(stop_m, crossing_slot);
-            return;
+            if (area.to_m > place_m - length_m_ && closes_cycle(area, blocker)) return;
         }
     }
 
-    // Returns the slot of a crawling vehicle that must still cross the area and that is in the path of the vehicle in
-    // `start`, directly or through further crawling vehicles; -1: none.
-    int find_crossing(const Conflict& area, int start) const {
-        constexpr std::size_t kMaxVehicles = 16;
-        std::array<int, kMaxVehicles> found = {start};
+    // Checks the areas that the candidate would block if it stopped behind its leader, which is still driving.
+    void check_stop_behind(int leader) {
+        const double behind_m = length_m(leader) + standstill_gap_m(v_.slot);
+        for (const Conflict& area : conflicts_) {
+            if (area.from_m >= result_.from_m) return;
+            if (closes_cycle(area, {leader, area.from_m + behind_m, area.to_m + length_m_ + behind_m})) return;
+        }
+    }
+
+    // Returns true if the candidate can stop before `area` and must do so: it would block the area, and `blocker` leads
+    // to a vehicle that must cross the area. The stop before the area can close a cycle as well, so the function then
+    // checks it.
+    bool closes_cycle(const Conflict& area, const ChainLink& blocker) {
+        if (!can_wait_before(v_.slot, v_.front_m, area.from_m)) return false;
+        const int crossing_slot = find_crossing(area, blocker);
+        if (crossing_slot < 0) return false;
+        result_ = {area.from_m, crossing_slot};
+        check_stop(area.from_m - margin_m_, {crossing_slot});
+        return true;
+    }
+
+    // Returns the slot of a vehicle that must still cross the area and that is in the path of the vehicle in `start`,
+    // directly or through further vehicles; -1: none.
+    int find_crossing(const Conflict& area, const ChainLink& start) const {
+        constexpr std::size_t kMaxLinks = 24;
+        std::array<ChainLink, kMaxLinks> found = {start};
         std::size_t count = 1;
         int crossing_slot = -1;
-        const auto visit = [&](int slot) {
-            if (const OnConnection on = on_connection(slot);
-                on.connection == area.other && on.front_m <= area.other_from_m) {
-                crossing_slot = slot;
-            }
+        const auto visit = [&](const ChainLink& link) {
+            const OnConnection on = on_connection(link.slot);
+            if (on.connection == area.other && waits_before(link, on, area.other_from_m)) crossing_slot = link.slot;
             const auto end = found.begin() + static_cast<std::ptrdiff_t>(count);
-            if (count < kMaxVehicles && std::find(found.begin(), end, slot) == end) found[count++] = slot;
+            if (count < kMaxLinks && std::find(found.begin(), end, link) == end) found[count++] = link;
         };
         for (std::size_t k = 0; k < count && crossing_slot < 0; ++k) visit_path(found[k], visit);
         return crossing_slot;
     }
 
-    // Calls `visit` with the slot of each crawling vehicle in the path of the vehicle in `slot`: the vehicles in the
-    // conflict areas ahead, and the leader of a queued vehicle.
+    // Returns true if a vehicle of the chain can still stop before the area that starts at `area_m`, and blocks the
+    // previous vehicle of the chain from there.
+    bool waits_before(const ChainLink& link, const OnConnection& on, double area_m) const {
+        if (!can_wait_before(link.slot, on.front_m, area_m)) return false;
+        return link.blocks_from(std::max(on.front_m, area_m - margin_m(link.slot)));
+    }
+
+    // Calls `visit` with the next links of the chain after `link`: the vehicles that block the conflict areas before
+    // which the vehicle can wait, and its leader.
     template <class Visit>
-    void visit_path(int slot, const Visit& visit) const {
-        const OnConnection on = on_connection(slot);
+    void visit_path(const ChainLink& link, const Visit& visit) const {
+        const OnConnection on = on_connection(link.slot);
         if (on.connection < 0) return;
         for (const Conflict& conflict : state_.plan.conflicts(on.connection)) {
-            if (conflict.from_m < on.front_m) continue;
-            for_each_in_area(conflict, [&](const JunctionOccupant& occupant) { visit(occupant.slot); });
+            if (conflict.from_m >= on.front_m && waits_before(link, on, conflict.from_m))
+                for_each_holder(conflict, visit);
         }
-        if (!is_blocked_by_leader(state_, slot)) return;
+        if (is_crawling(link.slot)) {
+            if (const int leader = queue_leader(link.slot); leader >= 0) visit(ChainLink{leader});
+        } else {
+            visit_leader(link, on, visit);
+        }
+    }
+
+    // Returns the slot of the crawling leader of a queued vehicle; -1: none.
+    int queue_leader(int slot) const {
+        if (!is_blocked_by_leader(state_, slot)) return -1;
         const int lane = lane_of(slot);
-        const bool is_first = slot == state_.blocks[at(lane)].first;
-        const int leader =
-            is_first ? leader_ahead(state_, lane, slot, queue_look_ahead_m(state_, slot)).slot : slot - 1;
-        if (leader >= 0) visit(leader);
+        if (slot != state_.blocks[at(lane)].first) return slot - 1;
+        return leader_ahead(state_, lane, slot, queue_look_ahead_m(state_, slot)).slot;
+    }
+
+    // Calls `visit` with the leader on the same connection, if there is one. `link`: a vehicle that does not crawl.
+    template <class Visit>
+    void visit_leader(const ChainLink& link, const OnConnection& on, const Visit& visit) const {
+        int leader = -1;
+        for (const JunctionOccupant& occupant : state_.junctions.occupants[at(on.connection)]) {
+            if (occupant.rear_m < on.front_m) break;
+            leader = occupant.slot;
+        }
+        if (leader < 0 || leader == v_.slot) return;
+        const double behind_m = length_m(leader) + standstill_gap_m(link.slot);
+        visit(ChainLink{leader, link.from_m + behind_m, link.to_m + behind_m});
     }
 
     int lane_of(int slot) const {
@@ -141,8 +249,8 @@ private:
 
 KeptOutArea area_to_keep_clear(const Model& model, const State& state, int lane, const Candidate& v) {
     if (!model.rules.keep_clear || model.rules.pass_blocker_ticks > 0) return {};
-    // A cycle that contains the candidate also contains a crawling vehicle on a conflicting connection.
-    if (!state.junctions.with_stopped.has_any(state.plan.conflicting(lane))) return {};
+    // A cycle that contains the candidate also contains a vehicle on a conflicting connection.
+    if (!state.junctions.occupied.has_any(state.plan.conflicting(lane))) return {};
     return CycleSearch(model, state, lane, v).result();
 }
 

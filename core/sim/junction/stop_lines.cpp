@@ -18,22 +18,9 @@ namespace stopline {
 
 namespace {
 
-// Returns true if the vehicle can stop before the line if it brakes with `deceleration_mps2` after a response time. In
-// the response time the vehicle keeps its present acceleration (if below 0: taken as 0), so the braking starts at a
-// higher speed. The response time is the brake lag plus half the time that the requested acceleration needs, at the
-// jerk limit, to fall to `-deceleration_mps2`. The requested acceleration can be higher than the present one while
-// gears change or if the vehicle is too weak for the request.
+// Returns true if the vehicle can stop before the line if it brakes with `deceleration_mps2` after a response time.
 bool can_stop(const Model& model, const VehicleArrays& v, int slot, double line_m, double deceleration_mps2) {
-    const double speed = v.speed_mps[at(slot)];
-    const double lag_s = model.vehicles[at(v.type[at(slot)])].brake_lag_s;
-    const double present_mps2 = std::max(static_cast<double>(v.acceleration_mps2[at(slot)]), 0.0);
-    const double request_mps2 =
-        v.has_powertrain() ? std::max(present_mps2, static_cast<double>(v.request_mps2[at(slot)])) : present_mps2;
-    const CaccSettings& cacc = model.driver_of(v.policy[at(slot)]).tables.cacc;
-    const double delay_s = lag_s + 0.5 * (request_mps2 + deceleration_mps2) / cacc.jerk_down_mps3;
-    const double delay_m = (speed + 0.5 * present_mps2 * delay_s) * delay_s;
-    const double room_m = line_m - v.position_m[at(slot)] - delay_m;
-    return square(speed + present_mps2 * delay_s) <= 2.0 * deceleration_mps2 * room_m;
+    return can_stop_after_response(model, v, slot, line_m - v.position_m[at(slot)], deceleration_mps2);
 }
 
 // Returns the highest deceleration with which a driver stops for a signal. On yellow this is the setting

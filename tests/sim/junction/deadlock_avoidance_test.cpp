@@ -1,6 +1,6 @@
-// Avoidance of deadlocks inside an intersection. Three stopped vehicles from three sides are inside. Each of the first
-// two is blocked by the next one. A fourth vehicle would close the cycle if it drove on, because it would block the
-// third one.
+// Avoidance of deadlocks inside an intersection. Three vehicles from three sides are inside, in most tests stopped. Each
+// of the first two is blocked by the next one. A fourth vehicle would close the cycle if it drove on, because it would
+// block the third one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include "sim/junction/deadlock_avoidance.h"
 #include "sim/junction/occupants.h"
 #include "sim/junction/right_of_way.h"
+#include "sim/state/queries/stopping_distance.h"
 #include "sim/step/occupied_lanes.h"
 #include "support/track.h"
 
@@ -72,17 +73,41 @@ protected:
     std::size_t slot_on(const std::string& connection) const { return track_.slot(lane(connection), 0); }
     VehicleArrays& vehicles() { return track_.mutable_state().vehicles; }
 
+    // Places a driving vehicle of the same length behind the vehicle on a connection.
+    void add_follower(const std::string& connection, double front_m, double speed_mps) {
+        track_.place(lane(connection), front_m, speed_mps);
+        const std::size_t follower = track_.slot(lane(connection), 1);
+        vehicles().record[follower] = vehicles().record[slot_on(connection)];
+        vehicles().length_m[follower] = vehicles().length_m[slot_on(connection)];
+    }
+
+    // Lets a vehicle drive towards the area that it shares with connection `next`.
+    void drive_towards(const std::string& connection, const std::string& next, double distance_m, double speed_mps) {
+        const std::size_t slot = slot_on(connection);
+        vehicles().position_m[slot] = conflict(connection, next).from_m - distance_m;
+        vehicles().speed_mps[slot] = speed_mps;
+    }
+
+    bool can_stop(std::size_t slot, double distance_m) const {
+        const Model& model = track_.model();
+        const VehicleArrays& v = track_.state().vehicles;
+        return model.meso ? can_stop_within(model, v.speed_mps[slot], distance_m)
+                          : can_stop_after_response(model, v, static_cast<int>(slot), distance_m,
+                                                    model.common_driver().cacc.deceleration_emergency_mps2);
+    }
+
     // The area that the vehicle from the north must not enter.
     Conflict entered() const { return conflict("north_0_straight", "east_0_straight"); }
 
-    KeptOutArea kept_out_area() {
+    // Returns the area that the k-th vehicle on a connection must not enter.
+    KeptOutArea kept_out_area(const std::string& connection = "north_0_straight", int k = 0) {
         State& state = track_.mutable_state();
         find_occupied_lanes(state, state.queues, state.partitions[0]);
         find_junction_occupants(state, state.junctions, state.partitions[0]);
-        const auto slot = static_cast<int>(slot_on("north_0_straight"));
+        const auto slot = static_cast<int>(track_.slot(lane(connection), k));
         const double speed_mps = state.vehicles.speed_mps[at(slot)];
         const Candidate candidate{slot, state.vehicles.position_m[at(slot)], true, speed_mps < 1.0};
-        return area_to_keep_clear(track_.model(), state, lane("north_0_straight"), candidate);
+        return area_to_keep_clear(track_.model(), state, lane(connection), candidate);
     }
 
     Track track_;
@@ -128,6 +153,89 @@ TEST_P(DeadlockAvoidance, ThePassBlockerRuleReplacesIt) {
 TEST_P(DeadlockAvoidance, AVehicleThatCannotStopDrivesOn) {
     vehicles().speed_mps[slot_on("north_0_straight")] = 12.0;
     EXPECT_FALSE(kept_out_area().exists());
+}
+
+// The vehicles still drive, but each of them must stop before its next area.
+TEST_P(DeadlockAvoidance, DrivingVehiclesCanCloseACycle) {
+    drive_towards("west_0_straight", "south_0_straight", 2.0, 1.5);
+    drive_towards("south_0_straight", "east_0_straight", 2.0, 1.5);
+    drive_towards("east_0_straight", "north_0_straight", 2.0, 1.5);
+    vehicles().speed_mps[slot_on("north_0_straight")] = 3.0;
+    const KeptOutArea area = kept_out_area();
+    EXPECT_EQ(area.from_m, entered().from_m);
+    EXPECT_EQ(area.crossing_slot, static_cast<int>(slot_on("east_0_straight")));
+}
+
+TEST_P(DeadlockAvoidance, AVehicleBelongsToTheCycleIfItCanNoLongerStopBeforeItsArea) {
+    drive_towards("south_0_straight", "west_0_straight", 1.0, 4.0);
+    EXPECT_TRUE(kept_out_area().exists());
+    drive_towards("south_0_straight", "west_0_straight", 6.0, 4.0);
+    EXPECT_FALSE(kept_out_area().exists());
+}
+
+// Another vehicle from the south is still upstream of the stop line. It can stop before the last area of its path only.
+TEST_P(DeadlockAvoidance, AFastVehicleBelongsToTheCycleBeforeItPassesTheStopLine) {
+    drive_towards("south_0_straight", "east_0_straight", -20.0, 5.0);  // this vehicle leaves the intersection
+    EXPECT_FALSE(kept_out_area().exists());
+    const int approach = track_.model().graph.lanes[at(lane("south_0_straight"))].origin;
+    const Lane& road = track_.model().graph.lanes[at(approach)];
+    const double front_m = -road.length_m + road.stop_line_m - 0.5;
+    const double margin_m = track_.model().drivers.front().give_way.margin_m;
+    const double to_last_m = conflict("south_0_straight", "east_0_straight").from_m - margin_m - front_m;
+    track_.place(approach, road.length_m + front_m, 5.0);
+    const std::size_t fast = track_.slot(approach, 0);
+    while (can_stop(fast, to_last_m)) vehicles().speed_mps[fast] += 0.1;
+    vehicles().speed_mps[fast] -= 0.1;
+    vehicles().record[fast].route = vehicles().record[slot_on("south_0_straight")].route;
+    vehicles().record[fast].route_index = 0;
+    vehicles().next_lane[fast] = lane("south_0_straight");
+    track_.mutable_state().signals.lights[at(road.signal_group)] = Light::green;
+    EXPECT_TRUE(kept_out_area().exists());
+    track_.mutable_state().stop_lines.stop_slot[at(approach)] = static_cast<int>(fast);
+    EXPECT_FALSE(kept_out_area().exists());
+}
+
+// The vehicle from the south waits for a vehicle on the right lane from the east. If it is short, its body then leaves
+// the path of the vehicle from the west.
+TEST_P(DeadlockAvoidance, AVehicleThatClearsTheAreaBeforeItStopsIsNoPartOfTheCycle) {
+    drive_towards("east_0_straight", "north_0_straight", -20.0, 5.0);  // this vehicle leaves the intersection
+    place_before("east_1_straight", "north_0_straight");
+    drive_towards("south_0_straight", "east_1_straight", 2.0, 1.5);
+    EXPECT_EQ(kept_out_area().from_m, conflict("north_0_straight", "east_1_straight").from_m);
+    vehicles().length_m[slot_on("south_0_straight")] = 2.0F;
+    EXPECT_FALSE(kept_out_area().exists());
+    // Another short vehicle follows the first one and must stop further upstream.
+    add_follower("south_0_straight", conflict("south_0_straight", "east_1_straight").from_m - 6.5, 1.5);
+    EXPECT_TRUE(kept_out_area().exists());
+}
+
+// A short vehicle from the north follows another one, which must stop in its path.
+TEST_P(DeadlockAvoidance, AVehicleBehindADrivingLeaderStaysOutOfTheCycle) {
+    drive_towards("east_0_straight", "north_0_straight", -20.0, 5.0);  // this vehicle leaves the intersection
+    place_before("east_1_straight", "north_0_straight");
+    drive_towards("south_0_straight", "east_1_straight", 2.0, 1.5);
+    vehicles().length_m[slot_on("north_0_straight")] = 1.5F;
+    drive_towards("north_0_straight", "west_0_straight", 1.5, 1.0);
+    const double to_area_m = conflict("north_0_straight", "east_1_straight").from_m;
+    add_follower("north_0_straight", to_area_m - 1.5, 1.0);
+    const KeptOutArea area = kept_out_area("north_0_straight", 1);
+    EXPECT_EQ(area.from_m, to_area_m);
+    EXPECT_EQ(area.crossing_slot, static_cast<int>(slot_on("east_1_straight")));
+}
+
+// The vehicles from the north and the south approach at the same speed and distance. If both drove on, they would close
+// the cycle together.
+TEST_P(DeadlockAvoidance, OfTwoVehiclesThatWouldCloseTheCycleTogetherOneStops) {
+    int steps_with_one = 0;
+    for (double distance_m = 6.0; distance_m > 0.0; distance_m -= 0.01) {
+        drive_towards("north_0_straight", "east_0_straight", distance_m, 3.0);
+        drive_towards("south_0_straight", "west_0_straight", distance_m, 3.0);
+        const bool north_stops = kept_out_area("north_0_straight").exists();
+        const bool south_stops = kept_out_area("south_0_straight").exists();
+        EXPECT_FALSE(north_stops && south_stops) << distance_m;
+        steps_with_one += north_stops || south_stops ? 1 : 0;
+    }
+    EXPECT_GT(steps_with_one, 5);
 }
 
 }  // namespace

@@ -43,6 +43,25 @@ inline bool can_stop_within(const Model& model, double speed_mps, double distanc
     return emergency_braking_distance_m(model, speed_mps) + response_m <= distance_m;
 }
 
+// Returns true if the vehicle can stop within `distance_m` if it brakes with `deceleration_mps2` after a response time.
+// In the response time the vehicle keeps its present acceleration (if below 0: taken as 0), so the braking starts at a
+// higher speed. The response time is the brake lag plus half the time that the requested acceleration needs, at the
+// jerk limit, to fall to `-deceleration_mps2`. The requested acceleration can be higher than the present one while
+// gears change or if the vehicle is too weak for the request.
+inline bool can_stop_after_response(const Model& model, const VehicleArrays& v, int slot, double distance_m,
+                                    double deceleration_mps2) {
+    const double speed = v.speed_mps[at(slot)];
+    const double lag_s = model.vehicles[at(v.type[at(slot)])].brake_lag_s;
+    const double present_mps2 = std::max(static_cast<double>(v.acceleration_mps2[at(slot)]), 0.0);
+    const double request_mps2 =
+        v.has_powertrain() ? std::max(present_mps2, static_cast<double>(v.request_mps2[at(slot)])) : present_mps2;
+    const CaccSettings& cacc = model.driver_of(v.policy[at(slot)]).tables.cacc;
+    const double delay_s = lag_s + 0.5 * (request_mps2 + deceleration_mps2) / cacc.jerk_down_mps3;
+    const double delay_m = (speed + 0.5 * present_mps2 * delay_s) * delay_s;
+    const double room_m = distance_m - delay_m;
+    return square(speed + present_mps2 * delay_s) <= 2.0 * deceleration_mps2 * room_m;
+}
+
 // Returns the distance to a conflict area within which right of way is decided: the distance of a comfortable stop plus
 // a reserve.
 inline double decision_distance_m(const DriverPlan& driver, double speed_mps) {
