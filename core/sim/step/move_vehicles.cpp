@@ -49,8 +49,8 @@ void add_lane(const Model& model, const State& state, int lane, std::span<const 
             (alignment.target_speed_mps - v.speed_mps[at(alignment.slot)]) / kTimeToTarget_s;
         demand(alignment.slot, std::max(acceleration_mps2, -GapAlignment::kDeceleration_mps2));
     }
-    group.lanes.push_back(
-        {block.first, block.past_last(), plan.next_limit_m, plan.limit_mps, static_cast<double>(plan.sine)});
+    group.lanes.push_back({block.first, block.past_last(), plan.next_limit_m, plan.limit_mps,
+                           static_cast<double>(plan.sine), state.plan.intersection_of(lane)});
     // For the prefetching, list one slot for each cache line. A cache line begins at each multiple of kSimdWidth.
     const int first_of_line = block.first / kSimdWidth * kSimdWidth;
     for (int slot = first_of_line; slot < block.past_last(); slot += kSimdWidth) group.prefetch_slots.push_back(slot);
