@@ -149,12 +149,19 @@ void write_tables(const RunCliOptions& options, const Scenario& scenario, std::v
     }
 }
 
+// Adds the table of changes between the modes of V2V if a channel is active.
+void add_v2v(const std::vector<PopulationV2v>& populations, std::vector<NamedText>& files) {
+    if (std::string text = v2v_modes_csv(populations); !text.empty())
+        files.emplace_back("v2v_modes.csv", std::move(text));
+}
+
 void write_results(const RunCliOptions& options, const SingleLightReport& result, double interval_s,
                    const std::filesystem::path& folder) {
     std::vector<NamedText> files{{"summary.csv", summary_csv(result)},
                                  {"improvement.csv", improvement_csv(result)},
                                  {"passages.csv", passages_csv(result)}};
     if (options.trajectories) files.emplace_back("trajectories.csv", trajectories_csv(result, interval_s));
+    add_v2v(v2v_of(result.runs), files);
     StateHashes hashes;
     for (const RunResult& run : result.runs) {
         hashes.emplace_back(run.population, fmt::format("{:016x}", run.state_hash));
@@ -168,6 +175,7 @@ void write_results(const RunCliOptions& options, const IntersectionReport& repor
                                  {"headways.csv", headways_csv(report)},
                                  {"starvations.csv", starvations_csv(report.starvations(), report.lanes)}};
     if (options.trajectories) files.emplace_back("trajectories.csv", intersection_trajectories_csv(report));
+    add_v2v(v2v_of(report.populations), files);
     StateHashes hashes;
     for (const IntersectionResult& f : report.populations) {
         hashes.emplace_back(f.population, fmt::format("{:016x}", f.state_hash));
@@ -232,6 +240,7 @@ ExitCode run_as_network(const RunCliOptions& options, const Scenario& scenario, 
                                   {"gridlocks.csv", gridlocks_csv(report)},
                                   {"starvations.csv", starvations_csv(report.starvations(), report.lanes)},
                                   {"rules.csv", rules_csv(report)}};
+    add_v2v(v2v_of(report.populations), tables);
     std::vector<Figure> figures{network_series_figure(report), delay_causes_figure(report)};
     if (network_kind(scenario.network).reports_approaches) {
         tables.emplace_back("inflow.csv", inflow_csv(report));

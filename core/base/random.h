@@ -21,7 +21,8 @@ enum class Purpose : std::uint64_t {
     insertion = 4,
     vehicle_type = 5,
     fit_start = 6,
-    driver = 7
+    driver = 7,
+    v2v = 8
 };
 
 // Returns the SplitMix64 finaliser of z. `Words` is std::uint64_t or a vector of std::uint64_t.
@@ -54,6 +55,8 @@ constexpr std::uint64_t purpose_key(std::uint64_t seed, Purpose purpose) {
 constexpr std::uint64_t dawdle_key(std::uint64_t seed) { return purpose_key(seed, Purpose::dawdle); }
 // Key for the properties and errors of human drivers (driver/human.h).
 constexpr std::uint64_t driver_key(std::uint64_t seed) { return purpose_key(seed, Purpose::driver); }
+// Key for the loss and the delay of V2V messages (v2v/channel.h).
+constexpr std::uint64_t v2v_key(std::uint64_t seed) { return purpose_key(seed, Purpose::v2v); }
 // Returns the bits of a double that is uniformly distributed in [1, 2).
 template <class Words>
 [[gnu::always_inline]] constexpr Words keyed_bits(std::uint64_t key, Words vehicle, std::uint64_t index) {

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "driver/v2v_settings.h"
+
 namespace stopline {
 
 // Settings that the kernels (the loops over vehicles) read are templates over the number type, so that the kernels can
@@ -145,6 +147,8 @@ struct DriverSettings {
     GiveWaySettings give_way;
     LaneChangeSettings lane_change;
     HumanSettings human;
+    V2vSettings v2v;
+    PlatoonSettings platoon;
     std::string name = {};  // name of the driver; default: the name of the file in data/drivers
 
     bool operator==(const DriverSettings&) const = default;

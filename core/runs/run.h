@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "runs/observation.h"
+#include "runs/v2v_results.h"
 #include "scenario/scenario.h"
 #include "sim/state/events.h"
 #include "sim/step/simulation.h"
@@ -51,6 +52,7 @@ struct RunResult {
     std::vector<TrajectoryPoint> trajectory;
     std::vector<double> queue_gaps_m;  // net gaps in the queue of the first lane at the start of green
     Violations violations;
+    V2vResult v2v;
     std::int64_t vehicles_entered = 0;
     std::int64_t vehicles_exited = 0;
     std::int64_t updates = 0;  // number of vehicles in the network, summed over all steps

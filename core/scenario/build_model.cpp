@@ -14,6 +14,7 @@
 #include "scenario/kinds/network_kind.h"
 #include "signals/signal_controller.h"
 #include "sim/mesoscale/following_families.h"
+#include "v2v/platoon_length.h"
 
 namespace stopline {
 
@@ -75,6 +76,15 @@ void add_detectors(const NetworkKind& kind, const Scenario& scenario, Model& mod
     add_loops(scenario, model);
 }
 
+// Prepares the arrays for an active V2V channel, and sets the length of platoons.
+void add_v2v(const DriverSettings& driver, Model& model) {
+    V2vPlan& plan = model.v2v_plan;
+    model.v2v.rows = std::max(model.v2v.rows, plan.rows());
+    if (plan.uses_platoon_leader) model.radar.rows = std::max(model.radar.rows, plan.rows());
+    plan.platoon_time_gap_s = driver.platoon.time_gap_s;
+    plan.max_platoon = max_platoon_vehicles(driver.platoon, mean_message_age_s(driver, model.step_s));
+}
+
 }  // namespace
 
 void set_meso(const MesoSettings& settings, Model& model) {
@@ -132,8 +142,16 @@ Model build_model(const Scenario& scenario, std::size_t population) {
         const double longest_s = driver.human.reaction_s + driver.human.reaction_spread_s;
         model.radar.rows = std::max(model.radar.rows, make_delay(longest_s, model.step_s).rows);
     }
+    const V2vSettings& v2v = driver_of(scenario, vehicles.components.front()).v2v;
+    const bool active = !scenario.is_meso() && needs_receivers(driver_of(scenario, vehicles.components.front()));
+    model.v2v_plan = make_v2v_plan(v2v, active, cacc.v2v_delay_s, model.step_s, model.seed);
+    if (active) add_v2v(driver_of(scenario, vehicles.components.front()), model);
     if (scenario.is_meso()) {  // mesoscale car following has no radar delay
         model.meso = true;
+        if (is_active_channel(v2v, cacc.radar_range_m)) {
+            model.v2v_plan = make_v2v_plan(v2v, true, cacc.v2v_delay_s, model.step_s, model.seed);
+            model.v2v_plan.is_active = false;  // only start messages use the channel
+        }
         model.radar = make_delay(0.0, model.step_s);
         model.v2v = make_delay(model.step_s, model.step_s);
     }
@@ -144,6 +162,13 @@ Model build_model(const Scenario& scenario, std::size_t population) {
     assign_trip_policies(scenario, model);
     if (scenario.is_meso()) {
         set_meso(scenario.meso, model);
+        if (model.v2v_plan.channel != nullptr) {
+            // Each vehicle waits for a message of the vehicle ahead. So the message passes on by one vehicle in a time
+            // that is the mean age of messages.
+            const double age_s = mean_message_age_s(driver_of(scenario, vehicles.components.front()), 0.0);
+            const int receivers = std::max(static_cast<int>(model.step_s / std::max(age_s, 1e-3)), 1);
+            model.start_relay_vehicles = std::min(model.start_relay_vehicles, receivers);
+        }
         add_following_models(scenario, vehicles, model);
     }
     check(model);

@@ -150,6 +150,16 @@ std::vector<std::string> range_warnings(const Scenario& scenario) {
         }
         return lines;
     }
+    const DriverSettings& driver = scenario.driver;
+    const auto without_effect = [&](const char* field) {
+        lines.push_back(
+            fmt::format("{} has no effect in the mesoscale mode, where a V2V channel changes only the starts "
+                        "of queues",
+                        field));
+    };
+    if (driver.v2v.topology != V2vSettings{}.topology) without_effect("driver.v2v.topology");
+    if (driver.v2v.fallback != FallbackSettings{}) without_effect("driver.v2v.fallback");
+    if (driver.platoon != PlatoonSettings{}) without_effect("driver.platoon");
     if (limit_mps > kLimitRounding * meso.calibrated_speed_limit_mps) {
         lines.push_back(beyond_text(limit_mps, meso.calibrated_speed_limit_mps,
                                     "the mesoscale parameters '" + meso.name + "'", "meso.calibrated_speed_limit",

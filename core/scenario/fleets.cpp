@@ -38,6 +38,11 @@ void check_population(const Scenario& scenario, const PopulationSettings& popula
     const DriverSettings& first = driver_of(scenario, population.components.front());
     for (std::size_t k = 1; k < population.components.size(); ++k) {
         const DriverSettings& own = driver_of(scenario, population.components[k]);
+        if (own.v2v != first.v2v && own.v2v != V2vSettings{}) {
+            check.error(component_field(population, k) + ".driver",
+                        "v2v differs from that of the first component of the population: all drivers of a population "
+                        "must have the same values, or leave v2v out");
+        }
         for (const CommonSetting& setting : kCommonSettings) {
             const double value = setting.value(own);
             const double first_value = setting.value(first);

@@ -17,7 +17,7 @@ import re
 import sys
 from pathlib import Path
 
-SIM_BELOW = ["base", "network", "signals", "demand", "vehicle", "driver", "spacing_laws"]
+SIM_BELOW = ["base", "network", "signals", "demand", "vehicle", "driver", "spacing_laws", "v2v"]
 
 # The rooms that each room may include besides itself. `measure` may use events and the network, but not vehicles or
 # drivers, so metrics cannot depend on the fidelity. `vehicle` and `driver` must not include each other.
@@ -28,6 +28,7 @@ ALLOWED = {
     "driver": ["base"],
     "spacing_laws": ["base", "driver"],
     "string_stability": ["base", "driver"],
+    "v2v": ["base", "driver"],
     "signals": ["base", "network"],
     "demand": ["base", "network"],
     "sumo_import": ["base", "network", "demand", "signals"],

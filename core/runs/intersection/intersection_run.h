@@ -9,6 +9,7 @@
 #include "measure/discharge.h"
 #include "measure/zones.h"
 #include "runs/observation.h"
+#include "runs/v2v_results.h"
 #include "scenario/scenario.h"
 #include "sim/step/simulation.h"
 
@@ -43,6 +44,7 @@ struct IntersectionResult {
     std::vector<DrawnVehicle> snapshot;
     std::vector<Light> snapshot_lights;  // [signal group] at the time of the snapshot
     Violations violations;
+    V2vResult v2v;
     std::int64_t entered = 0;
     std::int64_t exited = 0;
     std::int64_t updates = 0;  // number of vehicles in the network, summed over all steps

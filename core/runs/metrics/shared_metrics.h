@@ -9,7 +9,9 @@
 #include <fmt/format.h>
 
 #include "runs/metrics/metric.h"
+#include "runs/v2v_results.h"
 #include "sim/state/events.h"
+#include "v2v/fallback.h"
 
 namespace stopline {
 
@@ -20,7 +22,31 @@ struct RunCounts {
     const Violations& violations;
     std::int64_t updates;  // number of vehicles in the network, summed over all steps
     std::uint64_t state_hash;
+    const V2vResult& v2v;
 };
+
+// Returns the shares of the time in the modes of V2V (v2v/fallback.h). They are in the tables of sweeps.
+template <class Run>
+MetricList<Run> v2v_metrics() {
+    const auto share = [](V2vMode mode) {
+        return [mode](const Run& run) { return run.counts().v2v.share_percent(static_cast<std::size_t>(mode)); };
+    };
+    return {{.column = "v2v_old_messages_percent",
+             .unit = "%",
+             .extent = "run",
+             .meaning = "share of the time behind a leader in the mode `old_messages`; empty: no V2V channel is set",
+             .value = share(V2vMode::old_messages)},
+            {.column = "v2v_radar_percent",
+             .unit = "%",
+             .extent = "run",
+             .meaning = "share of the time behind a leader in the mode `radar`; empty: no V2V channel is set",
+             .value = share(V2vMode::radar)},
+            {.column = "v2v_acc_percent",
+             .unit = "%",
+             .extent = "run",
+             .meaning = "share of the time behind a leader in the mode `acc`; empty: no V2V channel is set",
+             .value = share(V2vMode::acc)}};
+}
 
 // Returns the metrics of vehicles, violations and work. `in_summary` names the metrics in summary.csv. Tables of sweeps
 // have all metrics, but their column `overlaps` is the sum of overlaps and conflicts.
@@ -84,6 +110,7 @@ MetricList<Run> count_metrics(std::initializer_list<std::string_view> in_summary
          .value = [](const Run& run) { return fmt::format("{:016x}", run.counts().state_hash); },
          .has_mean = false},
     };
+    for (const Metric<Run>& metric : v2v_metrics<Run>()) metrics.push_back(metric);
     for (Metric<Run>& metric : metrics) {
         const bool is_named = std::find(in_summary.begin(), in_summary.end(), metric.column) != in_summary.end();
         if (!is_named) metric.summary_decimals = kLeftOut;

@@ -12,6 +12,7 @@
 #include "runs/network/congestion.h"
 #include "runs/network/time_space.h"
 #include "runs/observation.h"
+#include "runs/v2v_results.h"
 #include "scenario/scenario.h"
 #include "sim/step/simulation.h"
 
@@ -54,6 +55,7 @@ struct NetworkResult {
     int full_cycles = 0;               // number of signal cycles after the network has filled
     DelayLog delays;
     Violations violations;
+    V2vResult v2v;
     double longest_in_junction_s = 0.0;
     double vehicles_present = 0.0;  // mean number of vehicles in the whole network over the measured window
     int max_present = 0;            // largest number of vehicles in the whole network

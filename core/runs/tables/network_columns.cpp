@@ -54,6 +54,18 @@ std::vector<TableDoc> result_tables() {
           {"to_s", "s", "run", "last observation"},
           {"max_vehicles", "veh", "run", "largest number of delayed vehicles: the first one and its queue"},
           {"delay_s", "veh s", "run", "sum of the delays of these vehicles"}}},
+        {"network/v2v_modes.csv",
+         "Written if `driver.v2v` sets a channel. One row for each change of a vehicle's driving mode because of the age "
+         "of\nthe newest message from its leader.",
+         {kPopulationColumn,
+          {"time_s", "s", "run", "time of the change"},
+          {"vehicle", "", "", "number of the vehicle"},
+          {"leader", "", "", "number of its leader"},
+          {"from", "", "", "mode before: `messages`, `old_messages`, `radar` or `acc`"},
+          {"to", "", "", "mode after the change"},
+          {"message_age_s", "s", "", "age of the newest message; empty: no message has arrived from this leader"},
+          {"net_gap_m", "m", "", "gap to the rear of the leader, from radar"},
+          {"speed_mps", "m/s", "", "speed of the vehicle"}}},
         {"network/starvations.csv",
          "One row for each vehicle that stands at the head of a queue for `measure.starvation` or longer although "
          "nothing blocks\nits way. Its movement starves.",

@@ -33,6 +33,16 @@ std::vector<ColumnDoc> joined(std::vector<ColumnDoc> first, const std::vector<Co
 
 }  // namespace
 
+// Returns the columns of v2v_modes.csv, which all kinds of networks share.
+static std::vector<ColumnDoc> v2v_columns() {
+    const std::vector<TableDoc> network = network_table_docs();
+    std::vector<ColumnDoc> columns{kPopulationColumn};
+    for (const char* name : {"time_s", "vehicle", "leader", "from", "to", "message_age_s", "net_gap_m", "speed_mps"}) {
+        columns.push_back(column_doc(network, "network/v2v_modes.csv", name));
+    }
+    return columns;
+}
+
 std::vector<TableDoc> intersection_table_docs() {
     const std::vector<TableDoc> network = network_table_docs();
     const auto as_starving = [&](std::string_view column) {
@@ -53,6 +63,8 @@ std::vector<TableDoc> intersection_table_docs() {
          "One row for each starving vehicle, as in `network/starvations.csv`.",
          {kPopulationColumn, as_starving("lane"), as_starving("vehicle"), as_starving("cause"), as_starving("from_s"),
           as_starving("to_s")}},
+        {"intersection/v2v_modes.csv", "One row for each change of a driving mode, as in `network/v2v_modes.csv`.",
+         v2v_columns()},
         {"intersection/trajectories.csv",
          "Written with `--trajectories`, for the first measured cycle. One row for each vehicle and each `--interval`.",
          joined({kPopulationColumn,
@@ -83,6 +95,9 @@ std::vector<TableDoc> single_light_table_docs() {
           {"time_s", "s", "green", "time from the start of green until its front passes the stop line"},
           {"headway_s", "s", "green", "time since the previous vehicle on the same lane; empty for the first"},
           {"speed_mps", "m/s", "green", "speed at the stop line"}}},
+        {"single_light/v2v_modes.csv",
+         "One row for each change of a driving mode, as in `network/v2v_modes.csv`. Times count from the start of the run.",
+         v2v_columns()},
         {"single_light/trajectories.csv",
          "Written with `--trajectories`, from 5 s before the green to 25 s after its end.\n"
          "One row for each vehicle and each `--interval`.",

@@ -16,6 +16,8 @@ const Table& signal_table();      // SignalSettings
 const Table& demand_table();      // DemandSettings
 const Table& vehicle_table();     // PowertrainSettings: the root of data/vehicles/*.yaml
 const Table& driver_table();      // DriverSettings: the root of data/drivers/*.yaml
+const Table& v2v_table();         // V2vSettings
+const Table& platoon_table();     // PlatoonSettings
 const Table& rules_table();       // TrafficRules
 const Table& idm_table();         // IdmSettings
 const Table& meso_table();        // MesoSettings: the root of data/meso/*.yaml

@@ -6,6 +6,7 @@
 #include "base/simd/narrowed.h"
 #include "sim/full_dynamics/full_kernels.h"
 #include "sim/full_dynamics/human_perception.h"
+#include "sim/full_dynamics/receive_messages.h"
 #include "sim/state/queries/overlap.h"
 
 namespace stopline {
@@ -109,6 +110,7 @@ void step_full(const Model& model, const FullTables& tables, const LaneGroup& la
     evaluate_gap_laws(model, lanes.vehicles, group);
     apply_classes(model, lanes.vehicles, group);
     react_as_humans(model, state, lanes.lanes, group);
+    receive_messages(model, state, lanes.lanes, group, part);
     for (std::size_t k = 0; k < tables.drivers.size(); ++k) {
         const int only = tables.drivers.size() == 1 ? -1 : static_cast<int>(k);
         const auto plan = model.drivers[k].is_human ? kernels.plan_human : kernels.plan;

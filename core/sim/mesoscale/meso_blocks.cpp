@@ -41,13 +41,28 @@ void update_queue(const VehicleArrays& v, const LaneBlock& block, std::int64_t t
     while (queue.end < block.count && is_at_rest(queue.end)) ++queue.end;
 }
 
+// Returns true if the vehicle in `slot` receives the start message that the vehicle ahead of it sends in this step.
+// Without a V2V channel (V2vPlan::channel), it always does.
+bool receives_start(const Model& model, const VehicleArrays& v, std::int64_t tick, double gap_m, float density_vpkm,
+                    std::size_t slot) {
+    const V2vPlan& plan = model.v2v_plan;
+    if (plan.channel == nullptr || plan.channel->is_delivered == nullptr) return true;
+    return plan.channel->is_delivered(plan.settings,
+                                      {link_key(plan.key, v.id[slot - 1], v.id[slot]), tick, gap_m, density_vpkm});
+}
+
 // Tells stopped vehicles of a queue by V2V that the vehicle ahead of the queue has started. Returns the number of
 // vehicles that receive this start message. A vehicle forwards the message before it moves, so the message reaches
 // several vehicles in one step. The relay ends at the first vehicle whose car-following model does not pass on messages
 // (FollowingModel::relays_starts()). This function only stores the messages, because the decisions for other lanes
 // still read the present accelerations of the receivers. step_meso() applies the messages.
-int relay_start(const Model& model, const VehicleArrays& v, const LaneBlock& block, StandingQueue& queue,
+// A message that the channel loses ends the relay for this step.
+int relay_start(const Model& model, const State& state, int lane, StandingQueue& queue,
                 std::vector<StartMessage>& messages) {
+    const VehicleArrays& v = state.vehicles;
+    const LaneBlock& block = state.blocks[at(lane)];
+    const float density_vpkm =
+        state.vehicles_per_km.empty() ? 0.0F : state.vehicles_per_km[at(state.plan.intersection_of(lane))];
     // The relay ends at a vehicle whose gap exceeds its desired gap by more than this value.
     constexpr double kClosedUp_m = 0.5;
     if (queue.first == 0) return 0;
@@ -60,6 +75,7 @@ int relay_start(const Model& model, const VehicleArrays& v, const LaneBlock& blo
         const FollowingModel& following = model.following[at(v.policy[i])];
         const double gap_m = v.position_m[i - 1] - static_cast<double>(v.length_m[i - 1]) - v.position_m[i];
         if (!following.relays_starts() || gap_m > following.equilibrium_gap_m(0.0) + kClosedUp_m) break;
+        if (!receives_start(model, v, state.tick, gap_m, density_vpkm, i)) break;
         messages.push_back({static_cast<int>(i), relayed_mps2});
         ++receivers;
     }
@@ -105,7 +121,7 @@ public:
         if (last_stopping_slot() > first + queue.first) queue.last_external_tick = state_.tick;
         update_queue(v_, block_, state_.tick, queue);
         const bool is_restrained = last_stopping_slot() >= first + queue.first;
-        const int receivers = is_restrained ? 0 : relay_start(model_, v_, block_, queue, part_.start_messages);
+        const int receivers = is_restrained ? 0 : relay_start(model_, state_, lane_, queue, part_.start_messages);
         if (model_.scalar_kernels) {
             cap_all();
             return add_blocks(first, block_.past_last());

@@ -210,6 +210,17 @@ void copy_v2v(const DelayRows& rows, VehicleArrays& v, std::size_t sentinel, std
     }
 }
 
+// Copies the slot of the leader and the place of the leader in its platoon to the sentinel slot of the lane.
+// `ahead`: -1 if there is no leader.
+void copy_platoon(VehicleArrays& v, std::size_t sentinel, std::size_t leader_slot, int ahead) {
+    V2vReceiver& copy = v.receiver[sentinel];
+    const V2vReceiver& leader = v.receiver[leader_slot];
+    copy.sender_slot = ahead;
+    copy.platoon = ahead >= 0 ? leader.platoon : -1;
+    copy.platoon_leader_slot = leader.platoon_leader_slot;
+    copy.place_in_platoon = leader.place_in_platoon;
+}
+
 }  // namespace
 
 bool rear_is_on_merging_path(const State& state, int lane, int slot, int ahead) {
@@ -258,6 +269,7 @@ void find_leaders_beyond_lanes(const Model& model, const State& state, VehicleAr
         }
         if (v.has_powertrain()) {
             copy_v2v(state.v2v, v, sentinel, leader_slot, has_leader);
+            if (v.has_v2v_channel) copy_platoon(v, sentinel, leader_slot, ahead.slot);
             react_to_hidden_leaders(model, state, lane, hidden, part);
         }
         const int id = has_leader ? v.id[leader_slot] : -1;

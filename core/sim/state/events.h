@@ -2,6 +2,7 @@
 // within the step.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <tuple>
 
@@ -45,6 +46,19 @@ struct LaneChange {
     float position_m;  // position of the front on from_lane
     bool for_route;    // true: mandatory change for the route; false: discretionary change for a higher speed
 };
+
+// A vehicle with an active V2V channel changes its driving mode (v2v/fallback.h).
+struct V2vModeChange {
+    double time_s;
+    int vehicle;
+    int leader;  // id; -1: none
+    int from_mode;
+    int to_mode;
+    float age_s;  // age of the newest message from the leader; below 0: there is no message
+    float gap_m;  // net gap
+    float speed_mps;
+};
+inline constexpr std::size_t kV2vModes = 4;
 
 // One observed violation of an invariant.
 struct Violation {

@@ -15,6 +15,7 @@
 #include "signals/phase_priority.h"
 #include "signals/signal_plan.h"
 #include "spacing_laws/gap_policy.h"
+#include "v2v/plan.h"
 #include "vehicle/powertrain_tables.h"
 
 namespace stopline {
@@ -94,6 +95,7 @@ struct Model {
     // effect one step later. The radar delay of the settings ends only then, so the age is that delay minus one step.
     DelayLine radar;
     DelayLine v2v;
+    V2vPlan v2v_plan;  // V2V channel; by default it is not active, and every message arrives after the delay `v2v`
     // true: the kernels compute one vehicle at a time and do not skip standing queues. The results are the same.
     bool scalar_kernels = false;
     // true: record passages, accepted gaps, and the crossings of all detectors; false: only the crossings of zones

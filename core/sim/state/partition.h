@@ -103,6 +103,8 @@ struct Partition {
     std::vector<Crossing> crossings;
     std::vector<GapAccepted> gaps_accepted;
     std::vector<RuleUse> rule_uses;
+    std::vector<V2vModeChange> v2v_mode_changes;
+    std::array<std::int64_t, kV2vModes> v2v_mode_steps{};
 
     // Full dynamics: lanes are added to a lane group until the group has at least this many vehicles.
     static constexpr int kGroupVehicles = 128;

@@ -17,6 +17,9 @@ struct RunRecords {
     std::vector<Crossing> crossings;
     std::vector<GapAccepted> gaps_accepted;
     std::vector<LaneChange> lane_changes;
+    std::vector<V2vModeChange> v2v_mode_changes;
+    // [mode] time that vehicles with an active V2V channel drive in the mode behind a leader, in vehicle steps
+    std::array<std::int64_t, kV2vModes> v2v_mode_steps{};
     std::vector<std::array<std::int64_t, kMaxTurns>>
         turned;  // [approach][Turn] number of vehicles that have made the turn
     Violations violations;

@@ -38,6 +38,9 @@ struct State {
     std::vector<LaneBlock> blocks;  // [lane]
     DelayRows radar;                // rows of the stored radar measurements that this step writes and reads
     DelayRows v2v;                  // rows of the stored V2V messages that this step writes and reads
+    // Density of vehicles around each intersection, for channels that read it. Empty: none does.
+    std::vector<float> vehicles_per_km;
+    std::vector<double> longest_lane_m;  // [intersection] set together with vehicles_per_km
     std::vector<Partition> partitions;
     std::vector<LaneLocation> location_of;  // [lane] position in the lists of `partitions`
     SignalState signals;

@@ -52,8 +52,8 @@ void add_lane(const Model& model, const State& state, int lane, std::span<const 
     if (state.prescribed.vehicle >= 0 && v.id[at(block.first)] == state.prescribed.vehicle) {
         demand(block.first, state.prescribed.acceleration_mps2);
     }
-    group.lanes.push_back(
-        {block.first, block.past_last(), plan.next_limit_m, plan.limit_mps, static_cast<double>(plan.sine)});
+    group.lanes.push_back({block.first, block.past_last(), plan.next_limit_m, plan.limit_mps,
+                           static_cast<double>(plan.sine), state.plan.intersection_of(lane)});
     // For the prefetching, list one slot for each cache line. A cache line begins at each multiple of kSimdWidth.
     const int first_of_line = block.first / kSimdWidth * kSimdWidth;
     for (int slot = first_of_line; slot < block.past_last(); slot += kSimdWidth) group.prefetch_slots.push_back(slot);

@@ -30,6 +30,7 @@ void merge_partition_reports(State& state) {
     };
     RunRecords& records = state.records;
     std::vector<RuleUse> rule_uses;
+    std::vector<V2vModeChange> v2v_mode_changes;
     std::int64_t present = state.congestion.teleporting.count;
     for (Partition& part : state.partitions) {
         present += part.present;
@@ -42,10 +43,18 @@ void merge_partition_reports(State& state) {
         move_to(records.crossings, part.crossings);
         move_to(records.gaps_accepted, part.gaps_accepted);
         move_to(rule_uses, part.rule_uses);
+        move_to(v2v_mode_changes, part.v2v_mode_changes);
+        for (std::size_t mode = 0; mode < kV2vModes; ++mode) {
+            records.v2v_mode_steps[mode] += part.v2v_mode_steps[mode];
+        }
+        part.v2v_mode_steps = {};
     }
     std::stable_sort(rule_uses.begin(), rule_uses.end(),
                      [](const RuleUse& a, const RuleUse& b) { return a.vehicle < b.vehicle; });
     move_to(state.congestion.delays.rule_uses, rule_uses);
+    std::stable_sort(v2v_mode_changes.begin(), v2v_mode_changes.end(),
+                     [](const V2vModeChange& a, const V2vModeChange& b) { return a.vehicle < b.vehicle; });
+    move_to(records.v2v_mode_changes, v2v_mode_changes);
     // Each partition counts its vehicles at the start of the step. The sum is still correct here, because vehicles
     // enter and leave the network only in later phases of the step.
     update_lost_vehicles(records, present);

@@ -8,6 +8,7 @@
 #include "sim/congestion/teleport.h"
 #include "sim/congestion/wait_reasons.h"
 #include "sim/full_dynamics/full_dynamics.h"
+#include "sim/full_dynamics/receive_messages.h"
 #include "sim/insertion/insert_vehicles.h"
 #include "sim/insertion/trips.h"
 #include "sim/junction/occupants.h"
@@ -129,6 +130,7 @@ void Simulation::step(bool use_threads) {
     state_.radar = delay_rows_at(model_.radar, state_.tick, state_.vehicles.slots);
     state_.v2v = delay_rows_at(model_.v2v, state_.tick, state_.vehicles.slots);
     update_phase_priorities(model_, state_);
+    measure_density(model_, state_);
     if (!use_threads) {
         decide(0, 1);
         if (delay_watch_is_due(model_, state_)) watch_delays(model_, state_);
@@ -171,6 +173,11 @@ std::uint64_t Simulation::state_hash() const {
             hash.add(v.speed_mps[i]);
             hash.add(v.acceleration_mps2[i]);
             if (v.has_human_drivers) hash.add(v.start_ticks[i]);
+            if (v.has_v2v_channel) {
+                hash.add(v.receiver[i].leader.sent_tick);
+                hash.add(static_cast<int>(v.receiver[i].fallback.mode));
+                hash.add(v.receiver[i].fallback.time_gap_s);
+            }
             if (model_.meso) continue;
             for (const float value :
                  {v.gear[i], v.request_mps2[i], v.torque_Nm[i], v.brake_N[i], v.gear_time_s[i], v.lag_s[i]}) {

@@ -10,7 +10,8 @@ struct LaneStep {
     int stop = 0;
     double next_limit_m = 0.0;  // position from which the speed limit of the next lane applies
     double limit_mps = 0.0;
-    double sine = 0.0;  // sine of the slope angle
+    double sine = 0.0;     // sine of the slope angle
+    int intersection = 0;  // intersection to which the lane belongs
 
     int count() const { return stop - begin; }
 };

@@ -13,6 +13,7 @@ void VehicleArrays::for_each_common(Visit visit) {
     visit(policy), visit(id), visit(next_lane), visit(record), visit(lane_memory), visit(stopped_since),
         visit(standstill_gap_m), visit(type);
     if (has_human_drivers) visit(start_ticks);
+    if (has_v2v_channel) visit(receiver);
 }
 
 template <class Visit>

@@ -14,6 +14,7 @@
 #include "sim/state/vehicles/lane_block.h"
 #include "sim/state/vehicles/lane_change_memory.h"
 #include "sim/state/vehicles/vehicle_record.h"
+#include "v2v/receiver.h"
 #include "vehicle/powertrain_tables.h"
 
 namespace stopline {
@@ -51,7 +52,7 @@ struct VehicleArrays {
     LargeArray<float> v2v_acceleration_mps2;
     LargeArray<float> v2v_request_mps2;
     LargeArray<float> v2v_rate_1ps;   // 1 / lag_s
-    LargeArray<float> own_speed_mps;  // at the time of the radar measurement; only in runs with human drivers
+    LargeArray<float> own_speed_mps;  // at the time of the radar measurement; see stores_own_speed()
     // A step reads these values only for some vehicles, mainly for the first vehicles of a lane and for vehicles that
     // change the lane or the route. Full dynamics also reads the standstill gap of all vehicles, and their type if the
     // model has several types.
@@ -65,11 +66,14 @@ struct VehicleArrays {
     LargeArray<int> type;
     // Runs with human drivers only: number of steps since the vehicle ahead began to move (driver/human.h).
     LargeArray<int> start_ticks;
+    // Runs with an active V2V channel only (V2vPlan): the messages that the vehicle has received.
+    LargeArray<V2vReceiver> receiver;
 
     int slots = 0;
     int radar_rows = 0;  // 0 in the mesoscale mode
     int v2v_rows = 0;    // 0 in the mesoscale mode
     bool has_human_drivers = false;
+    bool has_v2v_channel = false;
 
     // Full dynamics: sets the number of slots and of rows, and resets all values.
     void resize(int slot_count, int radar_row_count, int v2v_row_count);
@@ -96,7 +100,8 @@ struct VehicleArrays {
     // Fills all rows of the V2V delay line with the present state of the vehicle.
     void reset_v2v(int slot);
 
-    bool stores_own_speed() const { return has_human_drivers && radar_rows > 0; }
+    // Human drivers and vehicles that estimate their leader's speed need their own speed at the time of a measurement.
+    bool stores_own_speed() const { return (has_human_drivers || has_v2v_channel) && radar_rows > 0; }
 
     std::size_t row(int row_index, int slot) const {
         return static_cast<std::size_t>(row_index) * static_cast<std::size_t>(slots) + static_cast<std::size_t>(slot);

@@ -1,0 +1,159 @@
+// Platoons: who leads, where they split, how long they are, and the messages of the platoon leader.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "support/track.h"
+
+namespace stopline {
+namespace {
+
+using namespace testing_support;
+
+constexpr double kLimit_mps = 50.0 / 3.6;
+constexpr double kPi = 3.14159265358979;
+
+const V2vReceiver& receiver_of(const Track& track, int lane, int k) {
+    return track.state().vehicles.receiver[track.slot(lane, k)];
+}
+
+TrackPlan platoon_plan(std::vector<std::string> overrides) {
+    TrackPlan plan;
+    plan.overrides = std::move(overrides);
+    return plan;
+}
+
+Track queue(const TrackPlan& plan, int vehicles) {
+    Track track(plan);
+    const double spacing_m = track.model().vehicles[0].length_m + 2.95;
+    for (int k = 0; k < vehicles; ++k) track.place(0, plan.length_m - 1.0 - k * spacing_m, 0.0);
+    return track;
+}
+
+TEST(Platoons, VehiclesJoinAtTheTail) {
+    Track track(platoon_plan({"driver.v2v.topology=predecessor_and_leader"}));
+    track.place_platoon(0, 500.0, kLimit_mps, 9);
+    track.run(5.0);
+    for (int k = 0; k < 10; ++k) {
+        EXPECT_EQ(receiver_of(track, 0, k).platoon, track.vehicle(0, 0).id);
+        EXPECT_EQ(receiver_of(track, 0, k).place_in_platoon, k);
+    }
+}
+
+TEST(Platoons, TheTailBehindAnotherPolicyIsAPlatoonOfItsOwn) {
+    TrackPlan plan = platoon_plan({"driver.v2v.topology=predecessor_and_leader", "measure.baseline=P",
+                                   "populations=[{name: P, components: [{policy: CDG, share: 50 %}, {policy: HUMAN, "
+                                   "share: 50 %}]}]"});
+    plan.policy = "P";
+    Track track(plan);
+    for (int k = 0; k < 7; ++k) track.place(0, 500.0 - 25.0 * k, kLimit_mps, k == 3 ? 1 : 0);
+    track.run(90.0);
+    EXPECT_EQ(receiver_of(track, 0, 2).platoon, track.vehicle(0, 0).id);
+    EXPECT_EQ(receiver_of(track, 0, 4).platoon, track.vehicle(0, 4).id);
+    EXPECT_EQ(receiver_of(track, 0, 6).platoon, track.vehicle(0, 4).id);
+    EXPECT_EQ(receiver_of(track, 0, 6).place_in_platoon, 2);
+}
+
+TEST(Platoons, ALightSplitsAPlatoon) {
+    TrackPlan plan = platoon_plan({"driver.v2v.topology=predecessor_and_leader"});
+    plan.length_m = 300.0;
+    plan.exit_m = 800.0;
+    plan.green_s = 12.0;
+    Track track = queue(plan, 20);
+    while (track.time_s() < 25.0) track.step();
+    ASSERT_GT(track.count(0), 3);
+    ASSERT_GT(track.count(1), 3);
+    EXPECT_EQ(receiver_of(track, 0, 0).place_in_platoon, 0);
+    EXPECT_EQ(receiver_of(track, 0, 3).platoon, track.vehicle(0, 0).id);
+    EXPECT_EQ(receiver_of(track, 1, 3).platoon, track.vehicle(1, 0).id);
+}
+
+TEST(Platoons, MiniPlatoonsKeepATimeGapAndStartTogether) {
+    constexpr int kVehicles = 12;
+    constexpr int kLongest = 4;
+    TrackPlan plan = platoon_plan({"driver.platoon.max_vehicles=4"});
+    plan.green_from_s = 3.0;
+    plan.length_m = 150.0;
+    plan.exit_m = 1500.0;
+    Track track = queue(plan, kVehicles);
+    Track unlimited = queue(
+        [&] {
+            TrackPlan other = plan;
+            other.overrides.clear();
+            return other;
+        }(),
+        kVehicles);
+    std::vector<double> started_s(kVehicles, 0.0);
+    std::vector<double> started_without_limit_s(kVehicles, 0.0);
+    const auto note = [](const Track& one, std::vector<double>& times_s) {
+        for (const int lane : {0, 1}) {
+            for (int k = 0; k < one.count(lane); ++k) {
+                double& time_s = times_s[at(one.vehicle(lane, k).id)];
+                if (one.vehicle(lane, k).speed_mps > 0.0 && time_s == 0.0) time_s = one.time_s();
+            }
+        }
+    };
+    while (track.time_s() < 60.0) {
+        track.step();
+        unlimited.step();
+        note(track, started_s);
+        note(unlimited, started_without_limit_s);
+    }
+    for (int k = 0; k < kVehicles; ++k) EXPECT_NEAR(started_s[at(k)], started_without_limit_s[at(k)], 0.3) << k;
+    ASSERT_EQ(track.count(1), kVehicles);
+    for (int k = 1; k < kVehicles; ++k) {
+        const VehicleView view = track.vehicle(1, k);
+        EXPECT_EQ(receiver_of(track, 1, k).place_in_platoon, k % kLongest);
+        const double wanted_m = 2.95 + (k % kLongest == 0 ? 0.87 * view.speed_mps : 0.0);
+        EXPECT_NEAR(view.gap_m, wanted_m, 0.5) << "vehicle " << k;
+    }
+}
+
+// Returns the largest gap error of each follower behind a vehicle whose speed swings.
+std::vector<double> errors_behind_swing(const std::vector<std::string>& overrides, int followers) {
+    TrackPlan plan = platoon_plan(overrides);
+    plan.length_m = 4000.0;
+    plan.limit_mps = 60.0 / 3.6;
+    Track track(plan);
+    constexpr double kMean_mps = 12.0;
+    constexpr double kSwing_mps2 = 0.8;
+    constexpr double kOmega_radps = 2.0 * kPi * 0.15;
+    track.place_platoon(0, 900.0, kMean_mps, followers);
+    std::vector<double> largest_m(at(followers) + 1, 0.0);
+    while (track.time_s() < 120.0) {
+        const double t = track.time_s();
+        const double ramp = std::min(t / 20.0, 1.0);  // the swing grows from 0
+        const double a = ramp * kSwing_mps2 * std::sin(kOmega_radps * t);
+        const VehicleView head = track.vehicle(0, 0);
+        track.drive(0, 0, head.position_m, head.speed_mps, a, a, 0.2);
+        track.mutable_state().vehicles.request_mps2[track.slot(0, 0)] = static_cast<float>(a);
+        track.step();
+        // The first vehicle moves as prescribed.
+        VehicleArrays& v = track.mutable_state().vehicles;
+        v.speed_mps[track.slot(0, 0)] = head.speed_mps + 0.01 * a;
+        v.position_m[track.slot(0, 0)] = head.position_m + 0.01 * (head.speed_mps + 0.005 * a);
+        if (t < 60.0) continue;
+        for (int k = 1; k <= followers; ++k) {
+            largest_m[at(k)] = std::max(largest_m[at(k)], std::abs(track.vehicle(0, k).gap_m - 2.95));
+        }
+    }
+    return largest_m;
+}
+
+TEST(Platoons, ErrorsDoNotGrowWithThePlatoonLeader) {
+    constexpr int kFollowers = 42;
+    for (const char* delay : {"20 ms", "50 ms", "100 ms"}) {
+        const std::vector<double> errors_m = errors_behind_swing(
+            {std::string("driver.cacc.v2v_delay=") + delay, "driver.v2v.topology=predecessor_and_leader"}, kFollowers);
+        const double near_front_m = *std::max_element(errors_m.begin() + 1, errors_m.begin() + 6);
+        const double near_tail_m = *std::max_element(errors_m.end() - 5, errors_m.end());
+        EXPECT_LT(near_tail_m, 1.1 * near_front_m) << delay;
+        EXPECT_GT(near_front_m, 0.01) << "no swing";
+    }
+}
+
+}  // namespace
+}  // namespace stopline
