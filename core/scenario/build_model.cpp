@@ -82,7 +82,10 @@ void add_v2v(const DriverSettings& driver, Model& model) {
     model.v2v.rows = std::max(model.v2v.rows, plan.rows());
     if (plan.uses_platoon_leader) model.radar.rows = std::max(model.radar.rows, plan.rows());
     plan.platoon_time_gap_s = driver.platoon.time_gap_s;
-    plan.max_platoon = max_platoon_vehicles(driver.platoon, mean_message_age_s(driver, model.step_s));
+    double lag_s = 0.0;
+    for (const PowertrainTables& type : model.vehicles) lag_s = std::max(lag_s, type.brake_lag_s);
+    const double message_age_s = mean_message_age_s(driver, model.step_s);
+    plan.max_platoon = max_platoon_vehicles(driver.platoon, driver.cacc, message_age_s, lag_s);
 }
 
 }  // namespace

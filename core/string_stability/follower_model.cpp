@@ -79,11 +79,11 @@ LawGains without_feedforward(LawGains gains, const FollowerModel& m) {
 LawGains gains_of_platoon_law(const PlatoonLawSettings& law) {
     const double k = law.damping + std::sqrt(law.damping * law.damping - 1.0);
     LawGains gains;
-    gains.gap_1ps2 = law.bandwidth_radps * law.bandwidth_radps;
-    gains.closing_1ps = -(2.0 * law.damping - law.platoon_leader_weight * k) * law.bandwidth_radps;
-    gains.leader_acceleration = 1.0 - law.platoon_leader_weight;
-    gains.platoon_leader_acceleration = law.platoon_leader_weight;
-    gains.platoon_leader_speed_1ps = -k * law.bandwidth_radps * law.platoon_leader_weight;
+    gains.gap_1ps2 = law.bandwidth_1ps * law.bandwidth_1ps;
+    gains.closing_1ps = -(2.0 * law.damping - law.leader_weight * k) * law.bandwidth_1ps;
+    gains.leader_acceleration = 1.0 - law.leader_weight;
+    gains.platoon_leader_acceleration = law.leader_weight;
+    gains.platoon_leader_speed_1ps = -k * law.bandwidth_1ps * law.leader_weight;
     return gains;
 }
 

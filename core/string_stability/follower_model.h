@@ -20,13 +20,6 @@ enum class Topology {
     leader_and_platoon_leader,  // both, by V2V: Rajamani's law for a constant distance
 };
 
-// Rajamani's law for a constant distance, with the default values of the simulator Plexe (Segata et al. 2014).
-struct PlatoonLawSettings {
-    double platoon_leader_weight = 0.5;  // C1
-    double damping = 1.0;                // xi, at least 1
-    double bandwidth_radps = 0.2;        // omega_n
-};
-
 struct FollowerModel {
     Topology topology = Topology::leader;
     CaccSettings cacc;                // gains, delays of radar and V2V, horizon of the predictive feedforward
@@ -34,7 +27,7 @@ struct FollowerModel {
     double lag_s = 0.1;               // lag of the own powertrain
     double leader_lag_s = 0.1;        // lag of the powertrain of the leader
     double acceleration_age_s = 0.0;  // age of the own acceleration when the request that uses it takes effect
-    PlatoonLawSettings platoon_law;
+    PlatoonLawSettings platoon_law;   // Rajamani's law for a constant distance
     SingerModel singer;
 };
 

@@ -1,24 +1,22 @@
 #include "v2v/platoon_length.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
-#include <cmath>
 #include <system_error>
+
+#include "string_stability/string_limits.h"
 
 namespace stopline {
 
-int stable_platoon_vehicles(double delay_s) {
-    constexpr std::array kDelay_s{0.02, 0.05, 0.10, 0.15};
-    constexpr std::array kVehicles{43.0, 17.0, 8.0, 6.0};
-    // max|Gamma| grows smoothly with the delay, so its logarithm ln 2 / n is interpolated, not n itself.
-    const double two = std::log(2.0);
-    std::size_t k = 1;
-    while (k + 1 < kDelay_s.size() && kDelay_s[k] < delay_s) ++k;
-    const double share = (delay_s - kDelay_s[k - 1]) / (kDelay_s[k] - kDelay_s[k - 1]);
-    const double below = two / kVehicles[k - 1];
-    const double growth = below + std::max(share, 0.0) * (two / kVehicles[k] - below);
-    return static_cast<int>(two / growth);
+int stable_platoon_vehicles(const CaccSettings& cacc, double message_age_s, double lag_s) {
+    constexpr double kLongest = 1000.0;
+    FollowerModel model;
+    model.cacc = cacc;
+    model.cacc.v2v_delay_s = message_age_s;
+    model.lag_s = lag_s;
+    model.leader_lag_s = lag_s;
+    const double followers = doubling_followers(peak_gain(Follower(model)).gain);
+    return followers > kLongest ? 0 : std::max(static_cast<int>(followers), 1);
 }
 
 bool needs_receivers(const DriverSettings& driver) {
@@ -32,10 +30,11 @@ double mean_message_age_s(const DriverSettings& driver, double step_s) {
     return driver.cacc.v2v_delay_s + jitter_s + 0.5 * std::max(message_interval_s(v2v, step_s) - step_s, 0.0);
 }
 
-int max_platoon_vehicles(const PlatoonSettings& settings, double message_age_s) {
+int max_platoon_vehicles(const PlatoonSettings& settings, const CaccSettings& cacc, double message_age_s,
+                         double lag_s) {
     constexpr int kLongest = 1000;
     if (settings.max_vehicles == kAnyLength) return 0;
-    if (settings.max_vehicles == kStableLength) return stable_platoon_vehicles(message_age_s);
+    if (settings.max_vehicles == kStableLength) return stable_platoon_vehicles(cacc, message_age_s, lag_s);
     int number = 0;
     const char* const end = settings.max_vehicles.data() + settings.max_vehicles.size();
     const auto [last, error] = std::from_chars(settings.max_vehicles.data(), end, number);

@@ -6,13 +6,12 @@
 
 namespace stopline {
 
-// Returns the largest number of vehicles behind which the error of the worst frequency has not doubled:
-// n = ln 2 / ln max|Gamma|, with the transfer function Gamma from a vehicle's acceleration to that of its follower.
-// `delay_s`: mean age of the messages. Holds for a constant distance, one leader, and the default gains.
-//
-// For now, the values come from a table of a linear analysis with a lag of 0.3 s, interpolated over the delay. An
-// analysis of the settings of the run can replace the table here.
-int stable_platoon_vehicles(double delay_s);
+// Returns the largest number of vehicles behind which an oscillation with the worst frequency has not doubled:
+// n = ln 2 / ln max|Gamma|, with the transfer function Gamma from a vehicle's acceleration to that of its follower
+// (string_stability/string_limits.h). At least 1; 0: oscillations do not grow, so there is no limit. Holds for a
+// constant distance and messages of the leader only. `message_age_s`: mean age of the messages. `lag_s`: lag of the
+// powertrains.
+int stable_platoon_vehicles(const CaccSettings& cacc, double message_age_s, double lag_s);
 
 // Returns true if vehicles need a V2vReceiver: a channel is active, or platoons have a leader or a limited length.
 bool needs_receivers(const DriverSettings& driver);
@@ -23,7 +22,8 @@ double mean_message_age_s(const DriverSettings& driver, double step_s);
 
 inline constexpr const char* kAnyLength = "none";
 inline constexpr const char* kStableLength = "by_stability";
-// Returns the largest number of vehicles of a platoon; 0: no limit. -1: the setting is not valid.
-int max_platoon_vehicles(const PlatoonSettings& settings, double message_age_s);
+// Returns the largest number of vehicles of a platoon; 0: no limit. -1: the setting is not valid. The other parameters
+// are those of stable_platoon_vehicles().
+int max_platoon_vehicles(const PlatoonSettings& settings, const CaccSettings& cacc, double message_age_s, double lag_s);
 
 }  // namespace stopline

@@ -28,7 +28,7 @@ ALLOWED = {
     "driver": ["base"],
     "spacing_laws": ["base", "driver"],
     "string_stability": ["base", "driver"],
-    "v2v": ["base", "driver"],
+    "v2v": ["base", "driver", "string_stability"],
     "signals": ["base", "network"],
     "demand": ["base", "network"],
     "sumo_import": ["base", "network", "demand", "signals"],

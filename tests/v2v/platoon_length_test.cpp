@@ -6,23 +6,27 @@
 namespace stopline {
 namespace {
 
+constexpr double kLag_s = 0.2;
+
 TEST(PlatoonLength, FallsWithTheDelay) {
-    EXPECT_EQ(stable_platoon_vehicles(0.02), 43);
-    EXPECT_EQ(stable_platoon_vehicles(0.05), 17);
-    EXPECT_EQ(stable_platoon_vehicles(0.10), 8);
-    EXPECT_EQ(stable_platoon_vehicles(0.15), 6);
-    for (double delay_s = 0.0; delay_s < 0.5; delay_s += 0.01) {
-        EXPECT_GE(stable_platoon_vehicles(delay_s), stable_platoon_vehicles(delay_s + 0.01));
-        EXPECT_GE(stable_platoon_vehicles(delay_s), 1);
+    const CaccSettings cacc;
+    int before = 1000;
+    for (double delay_s = 0.02; delay_s < 0.5; delay_s += 0.02) {
+        const int vehicles = stable_platoon_vehicles(cacc, delay_s, kLag_s);
+        EXPECT_LE(vehicles, before);
+        EXPECT_GE(vehicles, 1);
+        before = vehicles;
     }
+    EXPECT_GT(stable_platoon_vehicles(cacc, 0.02, kLag_s), 3 * stable_platoon_vehicles(cacc, 0.15, kLag_s));
 }
 
 TEST(PlatoonLength, ReadsTheSetting) {
-    EXPECT_EQ(max_platoon_vehicles({"none"}, 0.02), 0);
-    EXPECT_EQ(max_platoon_vehicles({"8"}, 0.02), 8);
-    EXPECT_EQ(max_platoon_vehicles({"by_stability"}, 0.05), 17);
+    const CaccSettings cacc;
+    EXPECT_EQ(max_platoon_vehicles({"none"}, cacc, 0.02, kLag_s), 0);
+    EXPECT_EQ(max_platoon_vehicles({"8"}, cacc, 0.02, kLag_s), 8);
+    EXPECT_EQ(max_platoon_vehicles({"by_stability"}, cacc, 0.05, kLag_s), stable_platoon_vehicles(cacc, 0.05, kLag_s));
     for (const char* text : {"0", "-3", "8.5", "eight", "8x", "1001"}) {
-        EXPECT_EQ(max_platoon_vehicles({text}, 0.02), -1) << text;
+        EXPECT_EQ(max_platoon_vehicles({text}, cacc, 0.02, kLag_s), -1) << text;
     }
 }
 

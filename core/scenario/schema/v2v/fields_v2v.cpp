@@ -119,7 +119,8 @@ const Table& platoon_table() {
             number<&S::time_gap_s>("time_gap", "s", {0.1, 10}, "time gap between such platoons"),
         },
         [](const S& s, Checker& check) {
-            if (max_platoon_vehicles(s, 0.0) >= 0) return;
+            constexpr double kAnyTime_s = 0.1;
+            if (max_platoon_vehicles(s, {}, kAnyTime_s, kAnyTime_s) >= 0) return;
             check.error("max_vehicles",
                         "value '" + s.max_vehicles + "' must be none, by_stability, or a whole number from 1 to 1000");
         });
