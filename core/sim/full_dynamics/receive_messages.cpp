@@ -249,7 +249,7 @@ void find_platoon(const ReceiveStep& step, const V2vReceiver* leader, int slot, 
 }
 
 // Receives the messages of the platoon leader, and replaces the law for following by that of Rajamani while they are
-// recent. To replace the law, the desired gap becomes so small that it does not limit the acceleration, and the law of
+// recent. Precondition: the spacing policy keeps a constant distance at this speed, for which this law is made. To replace the law, the desired gap becomes so small that it does not limit the acceleration, and the law of
 // Rajamani becomes an external demand. All other laws, such as emergency braking, stay as they are.
 void follow_platoon_leader(const ReceiveStep& step, const LaneStep& lane, int slot, int place, const FullGroup& g,
                            V2vReceiver& own) {
@@ -372,8 +372,9 @@ void receive_messages(const Model& model, State& state, std::span<const LaneStep
             }
             update_estimate(plan.filter, leader_mps, own.estimate);
             if (own.leader_has_v2v) radio.receive(g.gap[place]);
+            const bool keeps_distance = g.slope[place] <= 0.0;  // by the spacing policy, before any fallback
             fall_back(step, values, slot, place, g, own, part);
-            if (plan.uses_platoon_leader) follow_platoon_leader(step, lane, slot, place, g, own);
+            if (plan.uses_platoon_leader && keeps_distance) follow_platoon_leader(step, lane, slot, place, g, own);
         }
     }
 }

@@ -143,6 +143,21 @@ std::vector<double> errors_behind_swing(const std::vector<std::string>& override
     return largest_m;
 }
 
+// The law with the platoon leader is made for a constant distance. A policy with a time gap keeps its own law.
+TEST(Platoons, TheLawWithThePlatoonLeaderLeavesTimeGapsAsTheyAre) {
+    const auto last_position_m = [](const char* policy, const char* topology) {
+        TrackPlan plan = platoon_plan({std::string("driver.v2v.topology=") + topology});
+        plan.policy = policy;
+        plan.exit_m = 1500.0;
+        plan.green_from_s = 3.0;
+        Track track = queue(plan, 10);
+        track.run(20.0);
+        return track.vehicle(0, track.count(0) - 1).position_m;
+    };
+    EXPECT_EQ(last_position_m("CTG-Ref", "predecessor_and_leader"), last_position_m("CTG-Ref", "predecessor"));
+    EXPECT_NE(last_position_m("CDG", "predecessor_and_leader"), last_position_m("CDG", "predecessor"));
+}
+
 TEST(Platoons, ErrorsDoNotGrowWithThePlatoonLeader) {
     constexpr int kFollowers = 42;
     for (const char* delay : {"20 ms", "50 ms", "100 ms"}) {
