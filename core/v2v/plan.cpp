@@ -2,10 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace stopline {
 
 namespace {
+
+// Returns true if no message within the range is lost: the channel has no losses, or its share of lost messages is 0.
+bool loses_nothing(const V2vChannel& channel, const V2vSettings& settings) {
+    if (channel.is_delivered == nullptr) return true;
+    const bool has_share =
+        std::any_of(channel.fields.begin(), channel.fields.end(), [](std::string_view field) { return field == "loss"; });
+    return has_share && settings.loss == 0.0;
+}
 
 int ticks_of(double time_s, double step_s) { return static_cast<int>(std::llround(time_s / step_s)); }
 
@@ -43,7 +52,7 @@ V2vPlan make_v2v_plan(const V2vSettings& settings, bool active, double delay_s, 
     }
     plan.hysteresis_ticks = ticks_of(kHysteresis_s, step_s);
     plan.filter = make_leader_filter(step_s);
-    plan.is_lossless = plan.channel->is_delivered == nullptr;
+    plan.is_lossless = loses_nothing(*plan.channel, settings);
     plan.longest_notice_s = (plan.delay_ticks + plan.longest_jitter_ticks + plan.interval_ticks) * step_s;
     plan.uses_platoon_leader = settings.topology == "predecessor_and_leader";
     return plan;
