@@ -1,5 +1,5 @@
-// stopline-strings: drives platoons behind a leader that swings, brakes hard, or starts from rest. Compares the measured
-// string stability with the linear analysis.
+// stopline-strings: drives platoons behind a leader that swings, brakes hard, or starts from rest. Compares the
+// measured string stability with the linear analysis.
 #include <algorithm>
 #include <filesystem>
 #include <string>

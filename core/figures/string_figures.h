@@ -1,5 +1,5 @@
-// Figures of stopline-strings: gain over frequency, accelerations by position, gaps during a manoeuvre, and the border of
-// string stability.
+// Figures of stopline-strings: gain over frequency, accelerations by position, gaps during a manoeuvre, and the border
+// of string stability.
 #pragma once
 
 #include <vector>

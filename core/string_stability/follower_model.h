@@ -1,6 +1,6 @@
 // The linear model of a vehicle in a platoon. It is the linearised controller of full dynamics
-// (driver/acceleration_laws.h), with the delays of radar and V2V and with a first-order lag of the powertrain. Limits of
-// acceleration and jerk, gear changes, emergency braking and the step length are not part of it.
+// (driver/acceleration_laws.h), with the delays of radar and V2V and with a first-order lag of the powertrain. Limits
+// of acceleration and jerk, gear changes, emergency braking and the step length are not part of it.
 #pragma once
 
 #include <complex>

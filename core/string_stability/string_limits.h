@@ -1,6 +1,6 @@
-// Limits of string stability that follow from the transfer function Gamma of one vehicle. A platoon of equal vehicles is
-// string stable if |Gamma| is at most 1 at all frequencies (Ploeg et al. 2011). Otherwise an oscillation grows by the
-// factor |Gamma| from vehicle to vehicle.
+// Limits of string stability that follow from the transfer function Gamma of one vehicle. A platoon of equal vehicles
+// is string stable if |Gamma| is at most 1 at all frequencies (Ploeg et al. 2011). Otherwise an oscillation grows by
+// the factor |Gamma| from vehicle to vehicle.
 #pragma once
 
 #include "string_stability/follower_model.h"
@@ -19,7 +19,7 @@ struct GainPeak {
     double frequency_radps = 0.0;
 };
 
-// |Gamma| may exceed 1 by this much, because |Gamma| tends to 1 at low frequencies and is computed with rounding errors.
+// |Gamma| may exceed 1 by this much. At low frequencies |Gamma| tends to 1 and is computed with rounding errors.
 inline constexpr double kGainTolerance = 1e-6;
 
 // Returns the largest |Gamma| of a vehicle behind its leader.
@@ -32,8 +32,8 @@ bool is_string_stable(const Follower& follower, const FrequencyRange& range = {}
 // 20 s suffices.
 double smallest_stable_time_gap_s(FollowerModel model, const FrequencyRange& range = {});
 
-// Returns the number of followers after which an oscillation with the worst frequency has doubled: ln 2 / ln gain. It is
-// infinite if the gain does not exceed 1.
+// Returns the number of followers after which an oscillation with the worst frequency has doubled: ln 2 / ln gain. It
+// is infinite if the gain does not exceed 1.
 double doubling_followers(double gain);
 
 }  // namespace stopline

@@ -29,8 +29,8 @@ FollowerModel vehicle(Topology topology, double time_gap_s, double lag_s, double
     return model;
 }
 
-// A vehicle with a constant distance whose feedforward is the request of the leader. The predictive feedforward tends to
-// it for a horizon far beyond the lags.
+// A vehicle with a constant distance whose feedforward is the request of the leader. The predictive feedforward tends
+// to it for a horizon far beyond the lags.
 FollowerModel distance_vehicle(double lag_s, double v2v_delay_s) {
     FollowerModel model = vehicle(Topology::leader, 0.0, lag_s, v2v_delay_s);
     model.cacc.prediction_start_s = 50.0;

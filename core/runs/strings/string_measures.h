@@ -32,8 +32,8 @@ struct StringMeasures {
     double largest_used_share = 0.0;
     double largest_jerk_mps3 = 0.0;
     int first_growing_position = 0;  // first position whose L-infinity ratio exceeds 1 by kRatioTolerance; 0: none
-    // Number of followers whose L-infinity norm is at most kDoubled times that of the platoon leader. It counts from the
-    // front and ends with the first exception.
+    // Number of followers whose L-infinity norm is at most kDoubled times that of the platoon leader. The count ends in
+    // front of the first exception.
     int holding_followers = 0;
 };
 
@@ -51,9 +51,9 @@ StringMeasures measure_string(const PlatoonMotion& motion);
 // number of periods.
 std::vector<std::complex<double>> amplitudes(const PlatoonMotion& motion, double frequency_radps);
 
-// The gain of a swing is measured from the front as far as the amplitude stays within bounds. Below kSmallestShare of the
-// platoon leader's amplitude, the steps of the torque hide the oscillation. Above the two other bounds, the limits of
-// acceleration and jerk act, and the gain depends on the amplitude.
+// The gain of a swing is measured from the front as far as the amplitude stays within bounds. Below kSmallestShare of
+// the platoon leader's amplitude, the steps of the torque hide the oscillation. Above the two other bounds, the limits
+// of acceleration and jerk act, and the gain depends on the amplitude.
 inline constexpr double kSmallestShare = 0.02;
 inline constexpr double kLargestAmplitude_mps2 = 1.0;
 inline constexpr double kLargestSwingJerk_mps3 = 2.5;

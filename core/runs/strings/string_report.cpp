@@ -12,6 +12,7 @@
 #include "runs/parallel_runs.h"
 #include "scenario/fleets.h"
 #include "spacing_laws/gap_policy.h"
+#include "v2v/platoon_length.h"
 
 namespace stopline {
 
@@ -76,6 +77,14 @@ void add_outcome(RunOutcome& outcome, StringResult& result) {
     }
 }
 
+// Returns the gain that swing_gain() would measure in a platoon of linear vehicles. With messages of the platoon
+// leader, the gain depends on the position.
+double linear_gain(const Follower& follower, const SwingResult& swing, int followers) {
+    std::vector<std::complex<double>> waves = follower.platoon_response(swing.frequency_radps, followers).acceleration;
+    for (std::complex<double>& wave : waves) wave *= swing.leader_amplitude_mps2;
+    return swing_gain(waves, swing.frequency_radps).mean;
+}
+
 // Returns the range of frequencies in which the linear model is compared with the swings.
 FrequencyRange swing_range(const std::vector<SwingResult>& swings) {
     FrequencyRange range;
@@ -96,7 +105,7 @@ void add_linear_analysis(const Scenario& scenario, std::size_t population, doubl
     if (!result.model) return;
     const Follower follower(*result.model);
     for (SwingResult& swing : result.swings) {
-        swing.linear_gain = std::abs(follower.response(swing.frequency_radps).to_leader);
+        swing.linear_gain = linear_gain(follower, swing, static_cast<int>(swing.measures.positions.size()) - 1);
     }
     result.range = swing_range(result.swings);
     result.linear_peak = peak_gain(follower, result.range);
@@ -163,7 +172,13 @@ std::optional<FollowerModel> linear_model(const Scenario& scenario, std::size_t 
     FollowerModel model;
     policy.evaluate({&speed_mps, 1}, {&gap_m, 1}, {&model.time_gap_s, 1});
     model.time_gap_s = std::max(0.0, model.time_gap_s);
-    model.cacc = driver_of(scenario, component).cacc;
+    const DriverSettings& driver = driver_of(scenario, component);
+    model.cacc = driver.cacc;
+    model.cacc.v2v_delay_s = mean_message_age_s(driver, scenario.step_s);
+    model.platoon_law = driver.v2v.platoon_law;
+    if (driver.v2v.topology == "predecessor_and_leader" && model.time_gap_s == 0.0) {
+        model.topology = Topology::leader_and_platoon_leader;
+    }
     model.lag_s = lag_s;
     model.leader_lag_s = lag_s;
     // The driver knows the mean acceleration of the step before. Its middle is 1.5 steps before the end of this step,

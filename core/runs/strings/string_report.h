@@ -82,8 +82,8 @@ std::string manoeuvre_name(Manoeuvre::Kind kind);
 // Runs all populations. Throws InputError if the scenario is unsuitable, and Interrupted if on_progress returns false.
 StringReport run_strings(const Scenario& scenario, const StringOptions& options);
 
-// Returns the linear model of a follower in a population, with the slope of its spacing policy at the given speed. Returns
-// nothing for mixed populations and for human drivers.
+// Returns the linear model of a follower in a population, with the slope of its spacing policy at the given speed and
+// with the mean age of its messages. Returns nothing for mixed populations and for human drivers.
 std::optional<FollowerModel> linear_model(const Scenario& scenario, std::size_t population, double speed_mps,
                                           double lag_s);
 

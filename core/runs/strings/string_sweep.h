@@ -1,5 +1,5 @@
-// Sweeps the V2V delay and the time gap of a platoon, and finds the border of string stability: measured in full dynamics
-// and computed with the linear analysis.
+// Sweeps the V2V delay and the time gap of a platoon, and finds the border of string stability: measured in full
+// dynamics and computed with the linear analysis.
 #pragma once
 
 #include <string>
@@ -20,8 +20,8 @@ struct StringSweepPoint {
 
 struct StringBorder {
     double v2v_delay_s = 0.0;
-    // Smallest time gap without growing oscillations; NaN: none of the swept time gaps suffices. If all of them suffice,
-    // it is the smallest swept one. Between two swept time gaps it is interpolated.
+    // Smallest time gap without growing oscillations, interpolated between two swept time gaps. NaN: none of the swept
+    // time gaps suffices. If all of them suffice, it is the smallest one.
     double measured_time_gap_s = 0.0;
     double linear_time_gap_s = 0.0;  // NaN: none up to 20 s
 };

@@ -3,8 +3,8 @@
 
 namespace stopline {
 
-// The vehicle accelerates at most with `acceleration_mps2`. It accelerates less if its driver wants so. The prescription
-// has an effect in full dynamics only, and only while the vehicle is the first one on its lane.
+// The vehicle accelerates at most with `acceleration_mps2`. It accelerates less if its driver wants so. The
+// prescription has an effect in full dynamics only, and only while the vehicle is the first one on its lane.
 struct PrescribedAcceleration {
     int vehicle = -1;  // id of the vehicle; -1: none
     double acceleration_mps2 = 0.0;
