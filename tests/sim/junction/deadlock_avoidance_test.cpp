@@ -1,6 +1,6 @@
-// Avoidance of deadlocks inside an intersection. Three vehicles from three sides are inside, in most tests stopped. Each
-// of the first two is blocked by the next one. A fourth vehicle would close the cycle if it drove on, because it would
-// block the third one.
+// Avoidance of deadlocks inside an intersection. Three vehicles from three sides are inside, in most tests stopped.
+// Each of the first two is blocked by the next one. A fourth vehicle would close the cycle if it drove on, because it
+// would block the third one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
