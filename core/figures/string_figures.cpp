@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "base/units.h"
+#include "figures/population_style.h"
 
 namespace stopline {
 
@@ -84,6 +87,13 @@ std::vector<std::size_t> shown_positions_of(const PlatoonMotion& motion) {
     return shown;
 }
 
+// Returns the line style of population k, which is the same in all figures.
+LineStyle style_in(const StringReport& report, std::size_t k) {
+    std::vector<std::string> names;
+    for (const StringResult& population : report.populations) names.push_back(population.population);
+    return line_style(style_index(names, names[k]));
+}
+
 }  // namespace
 
 Figure string_gain_figure(const StringReport& report) {
@@ -97,17 +107,17 @@ Figure string_gain_figure(const StringReport& report) {
     std::string curves;
     double largest = 0.0;
     for (std::size_t k = 0; k < report.populations.size(); ++k) {
-        const std::string colour = line_style(k).colour;
+        const LineStyle style = style_in(report, k);
         curves += fmt::format(
             " 'gain_linear.dat' index {0} using 1:2 with lines dt 1 lw 1.8 lc rgb '{1}' notitle, "
             "'gain.dat' index {0} using 1:2 with points pt {2} ps 1.2 lc rgb '{1}' title {3},",
-            k, colour, line_style(k).hollow_point, gnuplot_text(report.populations[k].population));
+            k, style.colour, style.hollow_point, gnuplot_text(report.populations[k].population));
         largest = std::max(largest, report.populations[k].worst_swing()->measured.mean);
     }
     curves.back() = '\n';
     figure.height_px = 860;
     figure.body =
-        "set multiplot layout 2,1 title 'Gain of the acceleration from vehicle to vehicle' font ',15'\n"
+        "set multiplot layout 2,1 title 'Gain of the acceleration from vehicle to vehicle' font ',15'\nunset title\n"
         "set logscale x\nset xrange [0.1:10]\nset yrange [0:*]\nset ylabel '|Gamma|'\nset rmargin 18\n"
         "set xlabel 'angular frequency [rad/s]    (lines: linear analysis, points: full dynamics)'\n"
         "set key at graph 1.02,1 left top\n"
@@ -135,7 +145,7 @@ Figure string_positions_figure(const StringReport& report) {
                                : "notitle";
                 curves[panel] +=
                     fmt::format(" 'positions.dat' index {} using 1:{} with lines lw 2 dt {} lc rgb '{}' {},", block,
-                                panel + 2, dash, line_style(k).colour, title);
+                                panel + 2, dash, style_in(report, k).colour, title);
             }
             ++block;
             ++dash;
