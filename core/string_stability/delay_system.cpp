@@ -12,14 +12,14 @@ namespace {
 
 using Complex = std::complex<double>;
 // Small matrices on the stack. A frequency response needs many thousand of them.
-using Matrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, DelaySystem::kMaxSize,
-                             DelaySystem::kMaxSize>;
-using Vector = Eigen::Matrix<Complex, Eigen::Dynamic, 1, Eigen::ColMajor, DelaySystem::kMaxSize, 1>;
+using ComplexMatrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, DelaySystem::kMaxSize,
+                                    DelaySystem::kMaxSize>;
+using ComplexVector = Eigen::Matrix<Complex, Eigen::Dynamic, 1, Eigen::ColMajor, DelaySystem::kMaxSize, 1>;
 
 // Returns s I - sum_k A_k exp(-s delay_k).
 template <class Terms>
-Matrix characteristic_matrix(int states, const Terms& terms, Complex s) {
-    Matrix matrix = s * Matrix::Identity(states, states);
+ComplexMatrix characteristic_matrix(int states, const Terms& terms, Complex s) {
+    ComplexMatrix matrix = s * ComplexMatrix::Identity(states, states);
     for (const auto& term : terms) matrix(term.row, term.column) -= term.gain * std::exp(-s * term.delay_s);
     return matrix;
 }
@@ -49,12 +49,12 @@ void DelaySystem::add_input(int row, int input, double gain, double delay_s) {
 }
 
 std::vector<Complex> DelaySystem::states(Complex s, const std::vector<Complex>& inputs) const {
-    Vector excitation = Vector::Zero(states_);
+    ComplexVector excitation = ComplexVector::Zero(states_);
     for (const Term& term : input_terms_) {
         excitation(term.row) +=
             term.gain * std::exp(-s * term.delay_s) * inputs.at(static_cast<std::size_t>(term.column));
     }
-    const Vector solution = characteristic_matrix(states_, state_terms_, s).partialPivLu().solve(excitation);
+    const ComplexVector solution = characteristic_matrix(states_, state_terms_, s).partialPivLu().solve(excitation);
     return {solution.data(), solution.data() + solution.size()};
 }
 

@@ -11,8 +11,8 @@ namespace {
 // Returns true if no message within the range is lost: the channel has no losses, or its share of lost messages is 0.
 bool loses_nothing(const V2vChannel& channel, const V2vSettings& settings) {
     if (channel.is_delivered == nullptr) return true;
-    const bool has_share =
-        std::any_of(channel.fields.begin(), channel.fields.end(), [](std::string_view field) { return field == "loss"; });
+    const bool has_share = std::any_of(channel.fields.begin(), channel.fields.end(),
+                                       [](std::string_view field) { return field == "loss"; });
     return has_share && settings.loss == 0.0;
 }
 

@@ -249,8 +249,9 @@ void find_platoon(const ReceiveStep& step, const V2vReceiver* leader, int slot, 
 }
 
 // Receives the messages of the platoon leader, and replaces the law for following by that of Rajamani while they are
-// recent. Precondition: the spacing policy keeps a constant distance at this speed, for which this law is made. To replace the law, the desired gap becomes so small that it does not limit the acceleration, and the law of
+// recent. To replace the law, the desired gap becomes so small that it does not limit the acceleration, and the law of
 // Rajamani becomes an external demand. All other laws, such as emergency braking, stay as they are.
+// Precondition: the spacing policy keeps a constant distance at this speed.
 void follow_platoon_leader(const ReceiveStep& step, const LaneStep& lane, int slot, int place, const FullGroup& g,
                            V2vReceiver& own) {
     constexpr double kLongestAge_s = 0.15;  // our choice, after the states of PlatoonSAFE
