@@ -15,15 +15,15 @@ constexpr double kPercent = 100.0;
 std::string followers(double number) { return std::isfinite(number) ? fixed(number, 2) : ""; }
 
 // The measures of one manoeuvre, with the frequency of a swing; NaN for other manoeuvres.
-struct Row {
+struct PositionRow {
     std::string manoeuvre;
     double frequency_radps;
     const StringMeasures* measures;
 };
 
 // Returns the manoeuvres of a population. Of the swings, `all_swings` keeps all, else the worst one.
-std::vector<Row> rows_of(const StringResult& result, bool all_swings) {
-    std::vector<Row> rows;
+std::vector<PositionRow> rows_of(const StringResult& result, bool all_swings) {
+    std::vector<PositionRow> rows;
     for (const SwingResult& swing : result.swings) {
         if (all_swings || &swing == result.worst_swing()) {
             rows.push_back({manoeuvre_name(Manoeuvre::Kind::swing), swing.frequency_radps, &swing.measures});
@@ -44,7 +44,7 @@ std::string string_summary_csv(const StringReport& report) {
                    "jerk_mps3"});
     for (const StringResult& result : report.populations) {
         const SwingResult* const worst = result.worst_swing();
-        for (const Row& row : rows_of(result, false)) {
+        for (const PositionRow& row : rows_of(result, false)) {
             const bool swings = !std::isnan(row.frequency_radps);
             const double gain = swings ? worst->measured.mean : kNan;
             const double linear = swings ? result.linear_peak.gain : kNan;
@@ -81,7 +81,7 @@ std::string string_positions_csv(const StringReport& report) {
                    "linf_ratio", "l2_from_head", "linf_from_head", "gap_error_m", "smallest_gap_m", "used_percent",
                    "jerk_mps3"});
     for (const StringResult& result : report.populations) {
-        for (const Row& row : rows_of(result, true)) {
+        for (const PositionRow& row : rows_of(result, true)) {
             for (std::size_t k = 0; k < row.measures->positions.size(); ++k) {
                 const PositionMeasures& one = row.measures->positions[k];
                 csv.row({result.population, row.manoeuvre, fixed(row.frequency_radps, 4), std::to_string(k),
