@@ -21,6 +21,7 @@ constexpr double kGreenReserve_s = 1.0;
 // The last stopped vehicle of the exit lane must start this time before the earliest arrival at its rear.
 constexpr double kStartReserve_s = 1.0;
 constexpr double kAnywhere_m = 1e9;
+constexpr double kRounding_m = 1e-3;
 
 class LaneAdmission {
 public:
@@ -105,6 +106,8 @@ private:
         if (!passes && !may_enter(slot) && (!decides || can_hold(slot))) {
             if (!decides) return false;
             refused_ = slot;
+            if (clearing_.refusals[at(lane_)].vehicle != v_.id[at(slot)])
+                clearing_.refusals[at(lane_)] = {v_.id[at(slot)], state_.tick};
             state_.stop_lines.held_at_green[at(lane_)] = hold_;
             return false;
         }
@@ -144,14 +147,21 @@ private:
         const int exit = state_.plan.lane(connection).exit;
         const ExitBooking& booking = booking_of(slot);
         const double length_m = v_.length_m[at(slot)];
-        const double claims_m = clearing_.connections[at(connection)].turns ? 0.0 : clearing_.claims_m[at(exit)];
-        if (booking.room_m - claims_m < length_m) return false;
+        const bool has_priority = clearing_.connections[at(connection)].turns || was_refused(slot);
+        const double claims_m = has_priority ? clearing_.urgent_claims_m[at(exit)] : clearing_.claims_m[at(exit)];
+        if (booking.room_m - claims_m < length_m - kRounding_m) return false;
         if (booking.present_room_m >= length_m) return true;
         const double rest_m = plan_.length_m + state_.plan.lane(connection).length_m + booking.present_room_m;
         const double earliest_s = travel_time_s(rest_m - v_.position_m[at(slot)], v_.speed_mps[at(slot)],
                                                 model_.driver_of(v_.policy[at(slot)]).tables.cacc.acceleration_max_mps2,
                                                 state_.plan.free_speed_mps(lane_));
         return booking.start_s + kStartReserve_s <= earliest_s;
+    }
+
+    // Returns true if the vehicle was refused in an earlier green.
+    bool was_refused(int slot) const {
+        const Refusal& refusal = clearing_.refusals[at(lane_)];
+        return refusal.vehicle == v_.id[at(slot)] && refusal.tick < state_.signals.since_tick[at(group_of(slot))];
     }
 
     // Returns true if the exit lane has room for the vehicle and for those ahead of it under the keep-clear rule.
@@ -255,9 +265,11 @@ private:
     KeepClearHold hold_;  // why the vehicle tested last may not enter
 };
 
-// Adds the claims of the turning vehicles of a lane that will pass the line in its next green.
+// Adds the claims of the vehicles of a lane that will pass the line in its next green: of turning vehicles, and of the
+// first vehicle if it was refused in the last green.
 void add_claims(const Model& model, State& state, int lane) {
     const VehicleArrays& v = state.vehicles;
+    ClearingState& clearing = state.clearing;
     const LaneBlock& block = state.blocks[at(lane)];
     const LanePlan& plan = state.plan.lane(lane);
     if (!plan.has_movement_signals && state.signals.lights[at(plan.signal_group)] == Light::green) return;
@@ -267,26 +279,28 @@ void add_claims(const Model& model, State& state, int lane) {
         const int next = v.next_lane[at(slot)];
         if (next < 0 || state.plan.lane(next).origin != lane) break;
         const int group = state.plan.signal_group_for(lane, next);
-        if (state.signals.lights[at(group)] == Light::green) continue;
+        if (state.signals.lights[at(group)] == Light::green || v.position_m[at(slot)] > plan.stop_line_m) continue;
         if (arrival_s > next_green_s(model, state, group)) break;
-        if (v.position_m[at(slot)] > plan.stop_line_m) continue;
-        if (!state.clearing.connections[at(next)].turns || !cooperates(model, state, slot)) continue;
-        state.clearing.claims_m[at(state.plan.lane(next).exit)] += space_needed_m(v, slot);
+        const bool is_urgent = clearing.refusals[at(lane)].vehicle == v.id[at(slot)];
+        if (!(is_urgent || clearing.connections[at(next)].turns) || !cooperates(model, state, slot)) continue;
+        const int exit = state.plan.lane(next).exit;
+        clearing.claims_m[at(exit)] += space_needed_m(v, slot);
+        if (is_urgent) clearing.urgent_claims_m[at(exit)] += space_needed_m(v, slot);
     }
 }
 
 }  // namespace
 
 void update_claims(const Model& model, State& state, Partition& part) {
-    if (state.tick % state.clearing.claim_ticks != 0) return;
-    for (const int exit : part.exits) state.clearing.claims_m[at(exit)] = 0.0;
+    ClearingState& clearing = state.clearing;
+    if (state.tick % clearing.claim_ticks != 0) return;
+    for (const int exit : part.exits) clearing.claims_m[at(exit)] = clearing.urgent_claims_m[at(exit)] = 0.0;
     for (const int lane : part.occupied) {
         if (state.plan.lane(lane).signal_group >= 0) add_claims(model, state, lane);
     }
-    // The straight traffic keeps at least half of the lane.
+    // Half of the lane remains for the vehicles without a claim.
     for (const int exit : part.exits) {
-        double& claims_m = state.clearing.claims_m[at(exit)];
-        claims_m = std::min(claims_m, 0.5 * state.plan.lane(exit).stop_line_m);
+        clearing.claims_m[at(exit)] = std::min(clearing.claims_m[at(exit)], 0.5 * state.plan.lane(exit).stop_line_m);
     }
 }
 
@@ -301,7 +315,9 @@ void init_clearing(const Model& model, State& state) {
     clearing.announcements.resize(lanes);
     clearing.last_admitted.assign(lanes, -1);
     clearing.bookings.resize(lanes);
+    clearing.refusals.resize(lanes);
     clearing.claims_m.assign(lanes, 0.0);
+    clearing.urgent_claims_m.assign(lanes, 0.0);
     clearing.connections.resize(lanes);
     double limit_mps = 1.0;
     for (int lane = 0; lane < static_cast<int>(lanes); ++lane) {
