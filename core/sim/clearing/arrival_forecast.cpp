@@ -38,6 +38,8 @@ double ArrivalForecast::next_s(int slot) {
     if (previous_s_ >= 0.0 && distance_m > 0.0) {
         const double space_m = previous_length_m_ + static_cast<double>(v.standstill_gap_m[at(slot)]);
         arrival_s = std::max(arrival_s, previous_s_ + space_m / discharge_mps_ + forecast.time_gap_s);
+        // The vehicles behind a turning one accelerate again.
+        discharge_mps_ = std::sqrt(square(discharge_mps_) + 2.0 * forecast.acceleration_mps2 * space_m);
     }
     discharge_mps_ = std::min({discharge_mps_, free_mps, entry_mps});
     previous_s_ = arrival_s;

@@ -23,6 +23,13 @@ constexpr double kStartReserve_s = 1.0;
 constexpr double kAnywhere_m = 1e9;
 constexpr double kRounding_m = 1e-3;
 
+// Returns true if the vehicle is the one of its lane that was refused last, and was refused since the start of a green.
+bool was_refused_since(const Model& model, const State& state, int lane, int slot, std::int64_t green_tick) {
+    constexpr double kStart_s = 2.0;  // covers the reaction time of the first vehicle
+    const Refusal& refusal = state.clearing.refusals[at(lane)];
+    return refusal.vehicle == state.vehicles.id[at(slot)] && refusal.tick <= green_tick + to_ticks(kStart_s, model.step_s);
+}
+
 class LaneAdmission {
 public:
     LaneAdmission(const Model& model, State& state, int lane, int stopping_slot)
@@ -144,12 +151,9 @@ private:
     // Returns true if the exit lane has a place for the vehicle that it can reach without a stop in a conflict area.
     bool has_place(int slot) {
         const int connection = connection_of(slot);
-        const int exit = state_.plan.lane(connection).exit;
         const ExitBooking& booking = booking_of(slot);
         const double length_m = v_.length_m[at(slot)];
-        const bool has_priority = clearing_.connections[at(connection)].turns || was_refused(slot);
-        const double claims_m = has_priority ? clearing_.urgent_claims_m[at(exit)] : clearing_.claims_m[at(exit)];
-        if (booking.room_m - claims_m < length_m - kRounding_m) return false;
+        if (booking.room_m - respected_claims_m(slot, connection) < length_m - kRounding_m) return false;
         if (booking.present_room_m >= length_m) return true;
         const double rest_m = plan_.length_m + state_.plan.lane(connection).length_m + booking.present_room_m;
         const double earliest_s = travel_time_s(rest_m - v_.position_m[at(slot)], v_.speed_mps[at(slot)],
@@ -158,10 +162,21 @@ private:
         return booking.start_s + kStartReserve_s <= earliest_s;
     }
 
-    // Returns true if the vehicle was refused in an earlier green.
+    // Returns the length that the vehicle leaves to vehicles with claims. Turning vehicles respect urgent claims only. A
+    // vehicle with an urgent claim takes the first free place itself. If it had to respect the urgent claims of other
+    // streets, all of them would wait for each other.
+    double respected_claims_m(int slot, int connection) const {
+        if (was_refused(slot)) return 0.0;
+        const int exit = state_.plan.lane(connection).exit;
+        return clearing_.connections[at(connection)].turns ? clearing_.urgent_claims_m[at(exit)]
+                                                           : clearing_.claims_m[at(exit)];
+    }
+
+    // Returns true if the vehicle was refused throughout the previous green.
     bool was_refused(int slot) const {
-        const Refusal& refusal = clearing_.refusals[at(lane_)];
-        return refusal.vehicle == v_.id[at(slot)] && refusal.tick < state_.signals.since_tick[at(group_of(slot))];
+        const int group = group_of(slot);
+        const std::int64_t cycle_ticks = model_.signals.plan_of(group).nominal_cycle_ticks;
+        return was_refused_since(model_, state_, lane_, slot, state_.signals.since_tick[at(group)] - cycle_ticks);
     }
 
     // Returns true if the exit lane has room for the vehicle and for those ahead of it under the keep-clear rule.
@@ -281,7 +296,7 @@ void add_claims(const Model& model, State& state, int lane) {
         const int group = state.plan.signal_group_for(lane, next);
         if (state.signals.lights[at(group)] == Light::green || v.position_m[at(slot)] > plan.stop_line_m) continue;
         if (arrival_s > next_green_s(model, state, group)) break;
-        const bool is_urgent = clearing.refusals[at(lane)].vehicle == v.id[at(slot)];
+        const bool is_urgent = was_refused_since(model, state, lane, slot, state.signals.green_start_tick[at(group)]);
         if (!(is_urgent || clearing.connections[at(next)].turns) || !cooperates(model, state, slot)) continue;
         const int exit = state.plan.lane(next).exit;
         clearing.claims_m[at(exit)] += space_needed_m(v, slot);
