@@ -354,7 +354,7 @@ void init_clearing(const Model& model, State& state) {
             {!driver.is_human, std::max(time_gap_s, 0.0), 0.5 * driver.tables.cacc.acceleration_max_mps2});
         clearing.line_margin_m = std::max(clearing.line_margin_m, driver.tables.stop.margin_m);
     }
-    clearing.announcement_ticks = std::max<std::int64_t>(to_ticks(0.2, model.step_s), 1);
+    clearing.announcement_ticks = std::max<std::int64_t>(to_ticks(0.5, model.step_s), 1);
     clearing.claim_ticks = std::max<std::int64_t>(to_ticks(1.0, model.step_s), 1);
 }
 
