@@ -99,7 +99,12 @@ private:
         }
     }
 
-    bool can_hold(int slot) const { return can_hold_for_keep_clear(model_, v_, slot, plan_.stop_line_m); }
+    // Returns true if the vehicle can stop before the line. A vehicle that was held in the previous step can. It may
+    // still accelerate up to its braking curve, so the general test of can_stop() would be too strict.
+    bool can_hold(int slot) const {
+        return state_.stop_lines.lines[at(lane_)].keep_clear_vehicle == v_.id[at(slot)] ||
+               can_hold_for_keep_clear(model_, v_, slot, plan_.stop_line_m);
+    }
 
     // Returns true if the vehicle is so near to the line that it must decide whether to stop.
     bool decides_now(int slot) const {
@@ -355,7 +360,7 @@ void init_clearing(const Model& model, State& state) {
         clearing.line_margin_m = std::max(clearing.line_margin_m, driver.tables.stop.margin_m);
     }
     clearing.announcement_ticks = std::max<std::int64_t>(to_ticks(0.5, model.step_s), 1);
-    clearing.claim_ticks = std::max<std::int64_t>(to_ticks(1.0, model.step_s), 1);
+    clearing.claim_ticks = std::max<std::int64_t>(to_ticks(2.0, model.step_s), 1);
 }
 
 }  // namespace stopline
