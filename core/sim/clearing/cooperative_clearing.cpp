@@ -52,6 +52,7 @@ public:
             withdraw();
             announce();
         } else {
+            if (stays_refused()) return refused_;
             while (end_ < bound_ && decides_now(end_) && admit(end_, true)) {
             }
         }
@@ -61,6 +62,21 @@ public:
     }
 
 private:
+    // Between two announcements, a refused vehicle is not tested again. Returns true if the first vehicle that is not
+    // admitted is such a vehicle.
+    bool stays_refused() {
+        if (end_ >= bound_ || !is_held(end_) || light_of(end_) != Light::green) return false;
+        const int connection = connection_of(end_);
+        if (connection < 0 || !cooperates(model_, state_, end_)) return false;
+        refused_ = end_;
+        state_.stop_lines.held_at_green[at(lane_)] = {last_on_exit(connection), true, true};
+        return true;
+    }
+
+    bool is_held(int slot) const {
+        return state_.stop_lines.lines[at(lane_)].keep_clear_vehicle == v_.id[at(slot)];
+    }
+
     int group_of(int slot) const { return state_.plan.signal_group_for(lane_, v_.next_lane[at(slot)]); }
     Light light_of(int slot) const { return state_.signals.lights[at(group_of(slot))]; }
     double to_line_m(int slot) const { return plan_.stop_line_m - v_.position_m[at(slot)]; }
@@ -102,8 +118,7 @@ private:
     // Returns true if the vehicle can stop before the line. A vehicle that was held in the previous step can. It may
     // still accelerate up to its braking curve, so the general test of can_stop() would be too strict.
     bool can_hold(int slot) const {
-        return state_.stop_lines.lines[at(lane_)].keep_clear_vehicle == v_.id[at(slot)] ||
-               can_hold_for_keep_clear(model_, v_, slot, plan_.stop_line_m);
+        return is_held(slot) || can_hold_for_keep_clear(model_, v_, slot, plan_.stop_line_m);
     }
 
     // Returns true if the vehicle is so near to the line that it must decide whether to stop.

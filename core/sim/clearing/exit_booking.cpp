@@ -126,6 +126,7 @@ bool cooperates(const Model& /*model*/, const State& state, int slot) {
 
 int admitted_end(const State& state, int lane) {
     const LaneBlock& block = state.blocks[at(lane)];
+    if (block.count == 0) return block.first;
     const double line_m = state.plan.lane(lane).stop_line_m;
     const int last_admitted = state.clearing.last_admitted[at(lane)];
     int end = block.first;
