@@ -27,7 +27,8 @@ constexpr double kRounding_m = 1e-3;
 bool was_refused_since(const Model& model, const State& state, int lane, int slot, std::int64_t green_tick) {
     constexpr double kStart_s = 2.0;  // covers the reaction time of the first vehicle
     const Refusal& refusal = state.clearing.refusals[at(lane)];
-    return refusal.vehicle == state.vehicles.id[at(slot)] && refusal.tick <= green_tick + to_ticks(kStart_s, model.step_s);
+    return refusal.vehicle == state.vehicles.id[at(slot)] &&
+           refusal.tick <= green_tick + to_ticks(kStart_s, model.step_s);
 }
 
 class LaneAdmission {
@@ -73,9 +74,7 @@ private:
         return true;
     }
 
-    bool is_held(int slot) const {
-        return state_.stop_lines.lines[at(lane_)].keep_clear_vehicle == v_.id[at(slot)];
-    }
+    bool is_held(int slot) const { return state_.stop_lines.lines[at(lane_)].keep_clear_vehicle == v_.id[at(slot)]; }
 
     int group_of(int slot) const { return state_.plan.signal_group_for(lane_, v_.next_lane[at(slot)]); }
     Light light_of(int slot) const { return state_.signals.lights[at(group_of(slot))]; }

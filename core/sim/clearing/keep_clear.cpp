@@ -192,8 +192,8 @@ int choose_keep_clear_stop(const Model& model, State& state, int lane) {
         if ((next->room_m >= 0.0 && next->crossing_slot < 0) || v.position_m[at(slot)] > line_m) continue;
         if (!can_hold_for_keep_clear(model, v, slot, line_m)) continue;
         state.stop_lines.held_at_green[at(lane)] = next->crossing_slot >= 0
-                                                        ? KeepClearHold{next->crossing_slot, false}
-                                                        : KeepClearHold{next->stopped_in_exit, true};
+                                                       ? KeepClearHold{next->crossing_slot, false}
+                                                       : KeepClearHold{next->stopped_in_exit, true};
         return slot;
     }
     return -1;

@@ -226,8 +226,7 @@ void decide_stop_lines(const Model& model, State& state, Partition& part) {
         if (stop_slot >= 0) make_platoon_leader(state, lane, stop_slot);
         const int held_slot = choose_held_vehicle(model, state, index, stop_slot, may_go);
         if (held_slot >= 0) stop_slot = held_slot;
-        if (held_slot >= 0 || line.keep_clear_vehicle >= 0)
-            record_hold(model, state, part, index, held_slot, line);
+        if (held_slot >= 0 || line.keep_clear_vehicle >= 0) record_hold(model, state, part, index, held_slot, line);
         state.stop_lines.stop_slot[at(index)] = stop_slot;
         list_approaching(model, state, index);
     }

@@ -53,13 +53,13 @@ struct ClearingState {
     // [lane][number of the announcement modulo 2]. A step that makes announcements reads those before it, so the order
     // of threads does not matter.
     std::vector<std::array<LaneAnnouncement, 2>> announcements;
-    std::vector<int> last_admitted;               // [lane] id of the last admitted vehicle on the lane; -1: none
-    std::vector<ExitBooking> bookings;            // [exit lane]
-    std::vector<Refusal> refusals;                // [lane]
+    std::vector<int> last_admitted;     // [lane] id of the last admitted vehicle on the lane; -1: none
+    std::vector<ExitBooking> bookings;  // [exit lane]
+    std::vector<Refusal> refusals;      // [lane]
     // [exit lane] Length that vehicles claim which wait at red signals. Vehicles refused in their last green have an
     // urgent claim. Turning vehicles have a claim, too.
     std::vector<double> urgent_claims_m;
-    std::vector<double> claims_m;  // includes the urgent claims
+    std::vector<double> claims_m;                 // includes the urgent claims
     std::vector<ClearingPolicy> policies;         // [policy]
     std::vector<ClearingConnection> connections;  // [lane]
     double line_margin_m = 0.0;                   // largest distance from a stopped vehicle's front to its stop line

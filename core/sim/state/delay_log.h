@@ -90,9 +90,9 @@ struct DelayLog {
     double delay_upstream_s = 0.0;     // part of the delay that occurs upstream of the measured area
     std::int64_t teleported = 0;       // number of teleports
     std::int64_t passed_blockers = 0;  // number of times that a vehicle has passed its blocker
-    std::int64_t refused = 0;        // number of times that cooperative clearing has begun to hold a vehicle
-    std::int64_t refusal_ticks = 0;  // time for which refused vehicles were stopped at their line, ticks
-    double refused_stop_s = 0.0;     // the same in s; set at the end of the run
+    std::int64_t refused = 0;          // number of times that cooperative clearing has begun to hold a vehicle
+    std::int64_t refusal_ticks = 0;    // time for which refused vehicles were stopped at their line, ticks
+    double refused_stop_s = 0.0;       // the same in s; set at the end of the run
     double longest_stop_s = 0.0;       // duration of the longest single stop of any vehicle
 };
 

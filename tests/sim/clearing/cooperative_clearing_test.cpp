@@ -33,11 +33,11 @@ INSTANTIATE_TEST_SUITE_P(Clearing, BothFidelities, testing::Values("meso", "full
 // of 2.95 m, (150.5 - 5.15) / 8.1 + 1 = 18.9 vehicles fit. 60 s of green would let 70 vehicles pass.
 TEST_P(BothFidelities, EighteenVehiclesFitIntoABlockBeforeARedLight) {
     for (const std::string policy : {"CDG", "CTG-Ref"}) {
-        const Model model = grid({population(policy), "measure.baseline=" + policy, "rules.clearing=cooperative",
-                                  "network.grid.columns=2", "network.grid.rows=1",
-                                  "network.grid.column_spacing=192.5 m", "demand.left=0 %", "demand.right=0 %",
-                                  "signal.green=60 s", "signal.offset=68 s", "duration=2000 s",
-                                  "measure.window=600 s", std::string("fidelity=") + GetParam()});
+        const Model model =
+            grid({population(policy), "measure.baseline=" + policy, "rules.clearing=cooperative",
+                  "network.grid.columns=2", "network.grid.rows=1", "network.grid.column_spacing=192.5 m",
+                  "demand.left=0 %", "demand.right=0 %", "signal.green=60 s", "signal.offset=68 s", "duration=2000 s",
+                  "measure.window=600 s", std::string("fidelity=") + GetParam()});
         Simulation simulation(model);
         simulation.run_until(64.0);
         const State& state = simulation.state();
@@ -74,9 +74,8 @@ bool stops_in_conflict_area(const State& state, int connection, int slot, double
     if (state.vehicles.speed_mps[at(slot)] >= kStoppedSpeed_mps) return false;
     const double rear_m = front_m - state.vehicles.length_m[at(slot)];
     const auto conflicts = state.plan.conflicts(connection);
-    return std::any_of(conflicts.begin(), conflicts.end(), [&](const Conflict& conflict) {
-        return front_m > conflict.from_m && rear_m < conflict.to_m;
-    });
+    return std::any_of(conflicts.begin(), conflicts.end(),
+                       [&](const Conflict& conflict) { return front_m > conflict.from_m && rear_m < conflict.to_m; });
 }
 
 // Returns true if the vehicle in `slot` or a vehicle ahead of it on the same lane yields to another vehicle.
@@ -130,7 +129,7 @@ Outcome run(const std::vector<std::string>& overrides, double until_s) {
 }
 
 std::vector<std::string> small_grid(const std::string& policy, const std::string& clearing) {
-    return {population(policy),      "measure.baseline=" + policy, "rules.clearing=" + clearing,
+    return {population(policy),       "measure.baseline=" + policy, "rules.clearing=" + clearing,
             "network.grid.columns=3", "network.grid.rows=3",        "signal.green=20 s",
             "demand.left=0 %",        "demand.right=20 %"};
 }
@@ -169,8 +168,8 @@ TEST(Clearing, VehiclesWithoutV2vKeepTheKeepClearRule) {
 // The junctions of this grid block each other without V2V.
 TEST(Clearing, PreventsGridlocksWithTurns) {
     std::vector<std::string> overrides = small_grid("CDG", "cooperative");
-    overrides.insert(overrides.end(), {"network.grid.columns=5", "network.grid.rows=5", "demand.left=5 %",
-                                       "demand.right=10 %"});
+    overrides.insert(overrides.end(),
+                     {"network.grid.columns=5", "network.grid.rows=5", "demand.left=5 %", "demand.right=10 %"});
     const Outcome with = run(overrides, 1200.0);
     overrides[2] = "rules.clearing=off";
     const Outcome without = run(overrides, 1200.0);
@@ -182,8 +181,8 @@ TEST(Clearing, PreventsGridlocksWithTurns) {
 }
 
 TEST(Clearing, GivesTheSameBitsForAnyNumberOfPartitions) {
-    const Model model = grid({population("CDG"), "measure.baseline=CDG", "rules.clearing=cooperative",
-                              "signal.green=20 s"});
+    const Model model =
+        grid({population("CDG"), "measure.baseline=CDG", "rules.clearing=cooperative", "signal.green=20 s"});
     std::set<std::uint64_t> hashes;
     for (const int threads : {1, 2, 5}) {
         Simulation simulation(model, threads);
