@@ -278,7 +278,7 @@ private:
     }
 
     // Returns true if an admitted vehicle is sure to leave the lane once it has reached the line. A vehicle that may have
-    // to yield is not. A driver without V2V is assumed to leave while he moves.
+    // to yield is not. A vehicle without V2V is assumed to leave while it moves.
     bool leaves(int slot, bool passes) const {
         const int connection = connection_of(slot);
         if (connection < 0) return is_on_last_edge(state_, slot);

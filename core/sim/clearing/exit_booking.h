@@ -1,4 +1,4 @@
-// Cooperative clearing: the room on exit lanes, and who has booked it.
+// Cooperative clearing: the room on exit lanes, and its bookings.
 #pragma once
 
 #include "sim/state/model.h"

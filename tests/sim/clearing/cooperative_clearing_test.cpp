@@ -82,7 +82,7 @@ bool stops_in_conflict_area(const State& state, int connection, int slot, double
 bool waits_to_yield(const State& state, const LaneBlock& block, int slot) {
     constexpr int kStartTicks = 10;  // 1 s, in which the vehicle starts again
     for (int k = block.first; k <= slot; ++k) {
-        if (state.vehicles.record[at(k)].yield_tick >= state.tick - 2) return true;
+        if (state.vehicles.record[at(k)].yield_tick >= state.tick - kStartTicks) return true;
     }
     return false;
 }
