@@ -18,6 +18,10 @@ struct TrafficRules {
     // stopped at that signal. SUMO has a similar rule: a lane counts as occupied if its rearmost vehicle must wait at
     // the end of the lane.
     std::string count_queue_at_red_exit = "on";  // off | on
+    // Cooperative clearing: vehicles with V2V announce where they will come to rest. They pass the stop line only if
+    // there is room for them beyond the intersection, even if all vehicles ahead stop as early as they may. Vehicles
+    // without V2V obey the keep-clear rule.
+    std::string clearing = "off";  // off | cooperative
     // If the first vehicle of a lane has been stopped for this many signal cycles, it is teleported past the
     // intersection as soon as there is room beyond it (SUMO: teleport). 0: never.
     double teleport_cycles = 0.0;

@@ -33,6 +33,7 @@ void add_rules(const Scenario& scenario, Model& model) {
     model.rules.keep_clear = rules.keep_clear == "on";
     model.rules.sight_m = rules.sight_m;
     model.rules.count_queue_at_red_exit = rules.count_queue_at_red_exit == "on";
+    model.rules.clearing = model.rules.keep_clear && rules.clearing == "cooperative";
     const NominalCycle nominal = scenario.nominal_cycle();
     model.rules.teleport_ticks = to_ticks(rules.teleport_cycles * nominal.cycle_s, model.step_s);
     model.rules.pass_blocker_ticks = to_ticks(rules.pass_blocker_greens * nominal.longest_green_s, model.step_s);

@@ -15,6 +15,7 @@ const CAUSES = {
     spillback: ['#0072b2', 'spillback (full exit lane)'],
     gridlock: ['#cc0078', 'gridlock'],
     wrong_lane: ['#009e73', 'wrong lane (waits for a gap)'],
+    refusal: ['#b39ddb', 'refusal (cooperative clearing)'],
 };
 
 // Returns the ways to colour vehicles, by name. Each way has colours, their labels, and a function `of` that returns

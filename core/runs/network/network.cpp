@@ -199,7 +199,8 @@ std::vector<PopulationStarvations> NetworkReport::starvations() const {
 }
 
 std::string rules_csv(const NetworkReport& report) {
-    static constexpr std::array<const char*, 4> kRuleNames{"teleported", "reinserted", "passed_blocker", "keep_clear"};
+    static constexpr std::array<const char*, 5> kRuleNames{"teleported", "reinserted", "passed_blocker", "keep_clear",
+                                                           "refused"};
     CsvWriter csv({"population", "time_s", "rule", "vehicle", "lane", "blocker", "stopped_s"});
     for (const NetworkResult& f : report.populations) {
         for (const RuleUse& use : f.delays.rule_uses) {

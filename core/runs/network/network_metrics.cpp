@@ -27,7 +27,9 @@ constexpr std::array kCauses{
               "the first vehicle of the queue waits for a gap to change lanes"},
     MetricKey{name_of(DelayCause::queue_discharge),
               "delay of vehicles that nothing blocks any more: the leader already moves, or the vehicle closes up to "
-              "its queue"}};
+              "its queue"},
+    MetricKey{name_of(DelayCause::refusal),
+              "delay by cooperative clearing, which holds the first vehicle of the queue at its stop line"}};
 static_assert(kCauses.size() + 1 == kDelayCauseNames.size());  // DelayCause::none has no metric
 constexpr std::size_t kFirstCause = 1;
 constexpr MetricFamily kDelayCauses{"CAUSE", nullptr, kCauses};
@@ -288,6 +290,19 @@ MetricList<MeasuredNetwork> gridlock_metrics() {
          .console = {.table = ConsoleTable::congestion,
                      .heading = "passed\nblockers",
                      .note = "vehicles that passed one that blocked the intersection, by rules.pass_blocker_greens"}},
+        {.column = "refused",
+         .unit = "veh",
+         .extent = "run",
+         .meaning = "number of times that cooperative clearing (`rules.clearing`) begins to hold a vehicle at its stop "
+                    "line",
+         .value = [](const MeasuredNetwork& run) { return run.result.delays.refused; }},
+        {.column = "refused_stop_h",
+         .unit = "veh h",
+         .extent = "run",
+         .meaning = "time for which vehicles that cooperative clearing refuses are stopped at their stop line, without "
+                    "the queues behind them",
+         .value = [](const MeasuredNetwork& run) { return run.result.delays.refused_stop_s / kSecondsPerHour; },
+         .summary_decimals = 3},
     };
 }
 

@@ -44,8 +44,8 @@ std::vector<TableDoc> result_tables() {
          "For `signal`, `yielding` and `queue_discharge`, a vehicle counts only after a stop of two signal cycles.",
          {kPopulationColumn,
           {"cause", "", "",
-           "`signal`, `yielding`, `junction_blocking`, `turn_blocking`, `spillback`, `gridlock`, `wrong_lane` or "
-           "`queue_discharge`; see the columns `delay_CAUSE_h` of `network/summary.csv`"},
+           "`signal`, `yielding`, `junction_blocking`, `turn_blocking`, `spillback`, `gridlock`, `wrong_lane`, "
+           "`queue_discharge` or `refusal`; see the columns `delay_CAUSE_h` of `network/summary.csv`"},
           {"lane", "", "", "lane of the first delayed vehicle; the queue can reach back over further lanes"},
           {"vehicle", "", "", "first delayed vehicle when the episode began"},
           {"blocker", "", "", "vehicle for which the first delayed vehicle waited at that time; empty: none"},
@@ -97,12 +97,13 @@ std::vector<TableDoc> rule_and_vehicle_tables() {
           {"rule", "", "",
            "`teleported`: the vehicle is removed (`teleport_cycles`, or a missed turn). `reinserted`: it is put on "
            "the road behind the obstruction. `passed_blocker`: a vehicle passes a blocker (`pass_blocker_greens`). "
-           "`keep_clear`: a vehicle is held at a green signal (`keep_clear`); one row when it begins"},
+           "`keep_clear`: a vehicle is held at a green signal (`keep_clear`); one row when it begins. `refused`: a "
+           "vehicle is held at a green signal (`clearing`); one row when it begins"},
           {"vehicle", "", "", "vehicle that is removed, reinserted, passes or is held"},
           {"lane", "", "", "lane of the vehicle; `passed_blocker`: its connection through the intersection"},
           {"blocker", "", "", "vehicle that is passed or that blocks the way; empty: none"},
           {"stopped_s", "s", "",
-           "`teleported`, `reinserted`: time for which the vehicle has been stopped. `keep_clear`: time for which the "
+           "`teleported`, `reinserted`: time for which the vehicle has been stopped. `keep_clear`, `refused`: time for which the "
            "blocker has been stopped. `passed_blocker`: time for which the blocker had been stopped when passing was "
            "allowed"}}},
         {"network/inflow.csv",

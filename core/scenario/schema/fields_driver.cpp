@@ -308,6 +308,10 @@ const Table& rules_table() {
                 "already stopped at it")
                 .enabled_by("keep_clear")
                 .renamed_from("light_ahead"),
+            choice<&S::clearing>("clearing", {"off", "cooperative"},
+                                 "cooperative: vehicles with V2V announce where they will come to rest, and pass the "
+                                 "stop line only if there is room for them beyond the intersection")
+                .enabled_by("keep_clear"),
             number<&S::teleport_cycles>(
                 "teleport_cycles", "", {0, 1000},
                 "teleport: the first vehicle of a lane, if stopped for this number of signal cycles, is moved past the "

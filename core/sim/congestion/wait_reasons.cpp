@@ -53,6 +53,7 @@ private:
         }
         if (slot == state_.stop_lines.stop_slot[at(lane)]) {
             const KeepClearHold& hold = state_.stop_lines.held_at_green[at(lane)];
+            if (hold.is_refusal) return set(slot, hold.blocker, DelayCause::refusal);
             if (hold.blocker < 0) return set(slot, -1, DelayCause::signal);
             return set(slot, hold.blocker, hold.in_exit ? full_exit_cause(slot) : DelayCause::junction_blocking);
         }

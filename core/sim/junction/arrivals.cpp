@@ -104,10 +104,12 @@ int vehicle_stopping_at_signal(const State& state, int lane, int connection) {
     return state.signals.lights[at(state.plan.signal_group_for(lane, next))] == Light::green ? -1 : stopping;
 }
 
-// Imported networks only (only their demand has trips): returns the slot of a vehicle that the keep-clear rule holds at
-// rest at the stop line of `lane`; -1: none. Vehicles that must yield to the held vehicle may go first.
+// Returns the slot of a vehicle that is held at rest at the stop line of `lane`; -1: none. Vehicles that must yield to
+// the held vehicle may go first. Such a vehicle is refused by cooperative clearing, and announces this by V2V. In
+// imported networks (only their demand has trips) it can also be held by the keep-clear rule.
 int vehicle_held_at_rest(const Model& model, const State& state, int lane) {
-    if (model.demand.trips.empty() || state.stop_lines.held_at_green[at(lane)].blocker < 0) return -1;
+    const KeepClearHold& hold = state.stop_lines.held_at_green[at(lane)];
+    if (!hold.is_refusal && (model.demand.trips.empty() || hold.blocker < 0)) return -1;
     const int held = state.stop_lines.stop_slot[at(lane)];
     return held >= 0 && state.vehicles.speed_mps[at(held)] < kCrawlingSpeed_mps ? held : -1;
 }

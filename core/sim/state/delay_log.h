@@ -18,11 +18,12 @@ enum class DelayCause : std::uint8_t {
     spillback,          // the vehicle goes straight on, and its exit lane is full
     gridlock,           // situation 3: a cycle of vehicles that wait for each other contains or blocks the vehicle
     wrong_lane,         // the vehicle waits for a gap in the adjacent lane, to which it must change
-    queue_discharge     // nothing holds the vehicle: its leader has started or is far ahead
+    queue_discharge,    // nothing holds the vehicle: its leader has started or is far ahead
+    refusal             // cooperative clearing holds the vehicle at its stop line
 };
-inline constexpr std::array<const char*, 9> kDelayCauseNames{
+inline constexpr std::array<const char*, 10> kDelayCauseNames{
     "none",      "signal",   "yielding",   "junction_blocking", "turn_blocking",
-    "spillback", "gridlock", "wrong_lane", "queue_discharge"};
+    "spillback", "gridlock", "wrong_lane", "queue_discharge",   "refusal"};
 
 // Returns true if the cause is a blockage: a blocked junction, a full exit lane, a gridlock, or a lane that is blocked
 // by a vehicle waiting for a lane change. Signals, yielding and queue discharge delay vehicles without any blockage.
@@ -67,15 +68,15 @@ struct Starvation {
 };
 
 // One use of a traffic rule (driver/traffic_rules.h): a vehicle is teleported, is reinserted after its teleport, passes
-// a blocker, or is held at a green signal by the keep-clear rule.
+// a blocker, is held at a green signal by the keep-clear rule, or is refused by cooperative clearing.
 struct RuleUse {
-    enum class Kind : std::uint8_t { teleported, reinserted, passed_blocker, keep_clear };
+    enum class Kind : std::uint8_t { teleported, reinserted, passed_blocker, keep_clear, refused };
     Kind kind = Kind::teleported;
     double time_s = 0.0;
     int vehicle = -1;  // id of the vehicle that uses the rule
     int lane = -1;     // lane of the vehicle; passed_blocker: connection on which it passes the blocker
-    int blocker = -1;  // passed_blocker, keep_clear: id of the blocking vehicle; else -1
-    // passed_blocker, keep_clear: time for which the blocker has been stopped. teleported, reinserted: time for which
+    int blocker = -1;  // passed_blocker, keep_clear, refused: id of the blocking vehicle; else -1
+    // passed_blocker, keep_clear, refused: time for which the blocker has been stopped. teleported, reinserted: time for which
     // the vehicle itself has been stopped.
     double stopped_s = 0.0;
 };
@@ -89,6 +90,9 @@ struct DelayLog {
     double delay_upstream_s = 0.0;     // part of the delay that occurs upstream of the measured area
     std::int64_t teleported = 0;       // number of teleports
     std::int64_t passed_blockers = 0;  // number of times that a vehicle has passed its blocker
+    std::int64_t refused = 0;          // number of times that cooperative clearing has begun to hold a vehicle
+    std::int64_t refusal_ticks = 0;    // time for which refused vehicles were stopped at their line, ticks
+    double refused_stop_s = 0.0;       // the same in s; set at the end of the run
     double longest_stop_s = 0.0;       // duration of the longest single stop of any vehicle
 };
 

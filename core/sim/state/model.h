@@ -36,6 +36,7 @@ struct RulesPlan {
     bool keep_clear = false;
     double sight_m = 0.0;
     bool count_queue_at_red_exit = false;
+    bool clearing = false;  // cooperative clearing
     std::int64_t teleport_ticks = 0;
     std::int64_t pass_blocker_ticks = 0;
     // Interval at which the delays of stopped vehicles are attributed to causes; 0: never.

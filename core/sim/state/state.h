@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "signals/signal_state.h"
+#include "sim/state/clearing_state.h"
 #include "sim/state/congestion_state.h"
 #include "sim/state/detector_state.h"
 #include "sim/state/gap_alignment.h"
@@ -45,6 +46,7 @@ struct State {
     std::vector<LaneLocation> location_of;  // [lane] position in the lists of `partitions`
     SignalState signals;
     StopLines stop_lines;
+    ClearingState clearing;
     JunctionState junctions;
     std::vector<std::vector<GapAlignment>> gap_alignments;  // [lane]
     QueueState queues;

@@ -18,10 +18,12 @@ struct StopLineState {
     int stop_id = -1;
 };
 
-// The reason why the keep-clear rule holds a vehicle at a green signal.
+// The reason why the keep-clear rule or cooperative clearing holds a vehicle at a green signal.
 struct KeepClearHold {
-    int blocker = -1;      // slot of the vehicle past the stop line that blocks the way; -1: the rule holds no vehicle
-    bool in_exit = false;  // true: the blocker is in the exit lane; false: it is in a conflict area
+    int blocker =
+        -1;  // slot of the vehicle past the stop line that blocks the way; -1: none, or the rule holds no vehicle
+    bool in_exit = false;     // true: the blocker is in the exit lane; false: it is in a conflict area
+    bool is_refusal = false;  // true: cooperative clearing has refused the vehicle; blocker can then be -1
 };
 
 // The free length of an exit lane, as the keep-clear rule computes it.

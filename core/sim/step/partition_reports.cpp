@@ -37,8 +37,10 @@ void merge_partition_reports(State& state) {
         records.updates += part.updates;
         records.longest_in_junction = std::max(records.longest_in_junction, part.longest_in_junction);
         state.congestion.delays.passed_blockers += part.passed_blockers;
+        state.congestion.delays.refused += part.refused;
+        state.congestion.delays.refusal_ticks += part.refusal_ticks;
         records.violations.add(part.violations);
-        part.updates = part.longest_in_junction = part.passed_blockers = 0;
+        part.updates = part.longest_in_junction = part.passed_blockers = part.refused = part.refusal_ticks = 0;
         part.violations = {};
         move_to(records.crossings, part.crossings);
         move_to(records.gaps_accepted, part.gaps_accepted);

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "base/state_hash.h"
+#include "sim/clearing/cooperative_clearing.h"
 #include "sim/congestion/delay_causes.h"
 #include "sim/congestion/teleport.h"
 #include "sim/congestion/wait_reasons.h"
@@ -59,6 +60,7 @@ Simulation::Simulation(const Model& model, int threads)
     if (model_.meso) {
         for (Partition& part : state_.partitions) list_cache_lines(model_, state_, part);
     }
+    init_clearing(model_, state_);
     insert_initial_queues(model_, state_);
     start_signals(model_, state_);
 }
