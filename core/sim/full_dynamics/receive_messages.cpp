@@ -384,7 +384,7 @@ void measure_density(const Model& model, State& state) {
     if (model.v2v_plan.channel == nullptr || !model.v2v_plan.channel->reads_density) return;
     constexpr double kInterval_s = 1.0;
     if (state.tick % to_ticks(kInterval_s, model.step_s) != 0) return;
-    const std::size_t intersections = at(std::max(state.plan.intersection_count(), 1));
+    const std::size_t intersections = state.blocks.size();  // the number of an intersection is that of one of its lanes
     state.longest_lane_m.assign(intersections, 1.0);
     state.vehicles_per_km.assign(intersections, 0.0F);
     for (std::size_t lane = 0; lane < state.blocks.size(); ++lane) {
