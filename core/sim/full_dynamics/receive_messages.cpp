@@ -8,6 +8,7 @@
 #include "base/speed_thresholds.h"
 #include "driver/acceleration_laws.h"
 #include "sim/full_dynamics/platoons.h"
+#include "sim/state/queries/response_time.h"
 
 namespace stopline {
 
@@ -181,33 +182,6 @@ void use_seen_braking(float seen_mps2, int place, const FullGroup& g) {
     constexpr float kClearly_mps2 = 1.0F;  // twice the noise of the estimate
     if (seen_mps2 >= std::min(g.heard_acceleration[place], g.heard_request[place]) - kClearly_mps2) return;
     use_radar(seen_mps2, place, g);
-}
-
-// Returns the time from the moment at which a leader begins to brake until its follower brakes in the same way, s.
-// `policy`: that of the follower.
-//
-// Safety. Leader and follower drive at the speed v and can both brake with b. If the follower does the same as its
-// leader, but a time T later, it comes to rest v T closer to the leader. So a gap of v T plus a margin prevents contact
-// whatever the leader does, and whether or not messages arrive. As every follower does the same as its leader, the
-// length of the platoon does not matter. A shorter gap would need followers that brake harder than their leaders, and
-// each one harder than the one before it: with the gap g, 1 / b of the leader would be higher by up to T^2 / (2 g) for
-// each follower.
-//
-// Without messages, T is the delay of the radar, the time to estimate the leader's acceleration, and the lag of the
-// brake. The leader's own lag does not count: radar sees its real motion. If the channel loses no message, T is the
-// longest age of a message. Brakes with the same lag then add nothing, as a message announces the leader's request.
-// A reserve covers one step, and gear changes that weaken the brake for a moment: a stop from 70 km/h thus has
-// 6.8 m/s2 in the mean instead of 7 m/s2, which costs as much as 0.04 s.
-double response_time_s(const Model& model, int policy) {
-    constexpr double kEstimate_s = 0.05;  // twice the time constant of the LeaderFilter
-    constexpr double kReserve_s = 0.06;
-    const V2vPlan& plan = model.v2v_plan;
-    const double brake_lag_s = model.vehicle_of(policy).brake_lag_s;
-    const double by_radar_s = model.driver_of(policy).tables.cacc.radar_delay_s + kEstimate_s + brake_lag_s;
-    if (!plan.is_lossless) return by_radar_s;
-    double shortest_lag_s = brake_lag_s;
-    for (const PowertrainTables& type : model.vehicles) shortest_lag_s = std::min(shortest_lag_s, type.brake_lag_s);
-    return std::min(by_radar_s, plan.longest_notice_s + kReserve_s + brake_lag_s - shortest_lag_s);
 }
 
 PolicyValues values_of(const Model& model, int policy) {
