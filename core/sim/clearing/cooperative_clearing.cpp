@@ -181,8 +181,8 @@ private:
         return booking.start_s + kStartReserve_s <= earliest_s;
     }
 
-    // Returns the length that the vehicle leaves to vehicles with claims. Turning vehicles respect urgent claims only. A
-    // vehicle with an urgent claim takes the first free place itself. If it had to respect the urgent claims of other
+    // Returns the length that the vehicle leaves to vehicles with claims. Turning vehicles respect urgent claims only.
+    // A vehicle with an urgent claim takes the first free place itself. If it had to respect the urgent claims of other
     // streets, all of them would wait for each other.
     double respected_claims_m(int slot, int connection) const {
         if (was_refused(slot)) return 0.0;
@@ -277,8 +277,8 @@ private:
         clearing_.announcements[at(lane_)][static_cast<std::size_t>(number % 2)] = own;
     }
 
-    // Returns true if an admitted vehicle is sure to leave the lane once it has reached the line. A vehicle that may have
-    // to yield is not. A vehicle without V2V is assumed to leave while it moves.
+    // Returns true if an admitted vehicle is sure to leave the lane once it has reached the line. A vehicle that may
+    // have to yield is not. A vehicle without V2V is assumed to leave while it moves.
     bool leaves(int slot, bool passes) const {
         const int connection = connection_of(slot);
         if (connection < 0) return is_on_last_edge(state_, slot);

@@ -7,8 +7,8 @@
 //     upstream of it can rely on it. A vehicle is admitted when it must decide whether to stop. It is admitted earlier
 //     if all vehicles ahead are admitted and it will reach the line in the present green.
 //   - A vehicle that is refused stops at the line and becomes a platoon leader.
-//   - Turning vehicles that wait at a red signal claim places on their exit lane, because otherwise the straight traffic
-//     of the other street would fill it, and a refused vehicle would hold up all vehicles behind it.
+//   - Turning vehicles that wait at a red signal claim places on their exit lane. Otherwise the straight traffic of the
+//     other street would fill it, and a refused vehicle would hold up all vehicles behind it.
 //   - Vehicles without V2V, and vehicles whose announcements are not fresh, obey the keep-clear rule.
 #pragma once
 
@@ -24,8 +24,8 @@ void init_clearing(const Model& model, State& state);
 void update_claims(const Model& model, State& state, Partition& part);
 
 // Decides which vehicles of a lane with a stop line are admitted to the intersection, and makes their announcement.
-// Returns the slot of the first vehicle that must stop at the line because it is refused; -1: none. Stores the reason in
-// StopLines::held_at_green. `stopping_slot`: slot of the vehicle that stops for its signal; -1: none.
+// Returns the slot of the first vehicle that must stop at the line because it is refused; -1: none. Stores the reason
+// in StopLines::held_at_green. `stopping_slot`: slot of the vehicle that stops for its signal; -1: none.
 int admit_vehicles(const Model& model, State& state, int lane, int stopping_slot);
 
 }  // namespace stopline

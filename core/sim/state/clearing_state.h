@@ -1,4 +1,5 @@
-// The announcements and bookings of cooperative clearing. Owner: sim/clearing. All vectors are empty if the rule is off.
+// The announcements and bookings of cooperative clearing. Owner: sim/clearing. All vectors are empty if the rule is
+// off.
 #pragma once
 
 #include <array>

@@ -76,8 +76,8 @@ struct RuleUse {
     int vehicle = -1;  // id of the vehicle that uses the rule
     int lane = -1;     // lane of the vehicle; passed_blocker: connection on which it passes the blocker
     int blocker = -1;  // passed_blocker, keep_clear, refused: id of the blocking vehicle; else -1
-    // passed_blocker, keep_clear, refused: time for which the blocker has been stopped. teleported, reinserted: time for which
-    // the vehicle itself has been stopped.
+    // passed_blocker, keep_clear, refused: time for which the blocker has been stopped. teleported, reinserted: time
+    // for which the vehicle itself has been stopped.
     double stopped_s = 0.0;
 };
 

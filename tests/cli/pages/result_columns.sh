@@ -62,6 +62,15 @@ run intersection "$STOPLINE_SOURCE/scenarios/intersection.yaml" "${brief[@]}" --
 check_all intersection intersection 3
 run light "$STOPLINE_SOURCE/scenarios/first_steps.yaml" "${brief[@]}" --set measure.string_stability=on
 check_all light single_light 4
+# Runs with a radio channel also write the changes of driving modes.
+radio=(--set fidelity=full --set 'driver.v2v={channel: bernoulli, loss: 50 %}' --set 'populations=[CDG]' --set measure.baseline=CDG)
+run radio_grid "$STOPLINE_SOURCE/scenarios/grid.yaml" "${radio[@]}" --set "duration=40 s" --set "measure.window=20 s" \
+    --set network.grid.columns=2 --set network.grid.rows=2
+check "$work/radio_grid/v2v_modes.csv" network/v2v_modes.csv
+run radio_intersection "$STOPLINE_SOURCE/scenarios/intersection.yaml" "${radio[@]}" --set measure.cycles=1
+check "$work/radio_intersection/v2v_modes.csv" intersection/v2v_modes.csv
+run radio_light "$STOPLINE_SOURCE/scenarios/first_steps.yaml" "${radio[@]}"
+check "$work/radio_light/v2v_modes.csv" single_light/v2v_modes.csv
 while read -r table; do check_complete "$table"; done < \
     <(grep -oE '^## (network|intersection|single_light)/.*' "$work/page" | cut -c4-)
 

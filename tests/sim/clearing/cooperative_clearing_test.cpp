@@ -28,9 +28,9 @@ class BothFidelities : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Clearing, BothFidelities, testing::Values("meso", "full"),
                          [](const auto& run) { return std::string(run.param); });
 
-// A block of 192.5 m with stop lines 20 m from the centres has 152.5 m before the stop line. The first vehicle rests 1 m
-// before the line, and the last one must rest 1 m beyond the conflict area. With a length of 5.15 m and a standstill gap
-// of 2.95 m, (150.5 - 5.15) / 8.1 + 1 = 18.9 vehicles fit. 60 s of green would let 70 vehicles pass.
+// A block of 192.5 m with stop lines 20 m from the centres has 152.5 m before the stop line. The first vehicle rests 1
+// m before the line, and the last one must rest 1 m beyond the conflict area. With a length of 5.15 m and a standstill
+// gap of 2.95 m, (150.5 - 5.15) / 8.1 + 1 = 18.9 vehicles fit. 60 s of green would let 70 vehicles pass.
 TEST_P(BothFidelities, EighteenVehiclesFitIntoABlockBeforeARedLight) {
     for (const std::string policy : {"CDG", "CTG-Ref"}) {
         const Model model =
