@@ -13,16 +13,16 @@ using Matrix3 = Eigen::Matrix<double, kEstimatedStates, kEstimatedStates>;
 // Returns the stabilising solution P of  A P + P A' + Q - P G P = 0. The columns of the matrix (X, P X) span the
 // eigenvectors of the Hamiltonian matrix whose eigenvalues have a negative real part.
 Matrix3 riccati_solution(const Matrix3& a, const Matrix3& q, const Matrix3& g) {
-    constexpr int n = kEstimatedStates;
-    Eigen::Matrix<double, 2 * n, 2 * n> hamiltonian;
+    constexpr int kN = kEstimatedStates;
+    Eigen::Matrix<double, 2 * kN, 2 * kN> hamiltonian;
     hamiltonian << a.transpose(), -g, -q, -a;
-    const Eigen::EigenSolver<Eigen::Matrix<double, 2 * n, 2 * n>> solver(hamiltonian);
-    Eigen::Matrix<std::complex<double>, 2 * n, n> stable;
+    const Eigen::EigenSolver<Eigen::Matrix<double, 2 * kN, 2 * kN>> solver(hamiltonian);
+    Eigen::Matrix<std::complex<double>, 2 * kN, kN> stable;
     int columns = 0;
-    for (int k = 0; k < 2 * n && columns < n; ++k) {
+    for (int k = 0; k < 2 * kN && columns < kN; ++k) {
         if (solver.eigenvalues()[k].real() < 0.0) stable.col(columns++) = solver.eigenvectors().col(k);
     }
-    return (stable.bottomRows<n>() * stable.topRows<n>().inverse()).real();
+    return (stable.bottomRows<kN>() * stable.topRows<kN>().inverse()).real();
 }
 
 }  // namespace

@@ -180,11 +180,11 @@ TEST(Clearing, PreventsGridlocksWithTurns) {
     EXPECT_GT(static_cast<double>(with.exited), 1.5 * static_cast<double>(without.exited));
 }
 
-TEST(Clearing, GivesTheSameBitsForAnyNumberOfPartitions) {
+TEST(Clearing, AnyNumberOfThreadsGivesTheSameRun) {
     const Model model =
         grid({population("CDG"), "measure.baseline=CDG", "rules.clearing=cooperative", "signal.green=20 s"});
     std::set<std::uint64_t> hashes;
-    for (const int threads : {1, 2, 5}) {
+    for (const int threads : {1, 2, 4}) {
         Simulation simulation(model, threads);
         simulation.run_until(300.0);
         EXPECT_GT(simulation.state().congestion.delays.refused, 100);
