@@ -1,8 +1,8 @@
 // V2V channels. A channel decides whether a message from one vehicle reaches another vehicle. A new channel is one file
 // with a V2vChannel and one line in channels.cpp.
 //
-// A decision depends only on the key of the link and on the number of the message, never on earlier decisions. So
-// threads, the order of vehicles and the step in which a receiver asks do not change any bit.
+// A decision depends only on the key of the link and on the number of the message, never on earlier decisions. The
+// result therefore does not depend on threads, the order of vehicles, or the step in which a receiver asks.
 #pragma once
 
 #include <cstdint>

@@ -1,11 +1,11 @@
 // The ladder of driving modes of a vehicle that misses messages. The age of the newest message from the leader selects
 // the mode:
-//     messages  up to 0.3 s  the spacing policy, with the message as feedforward
-//     old       up to 0.5 s  CACC with a time gap: the message is too old for a constant distance
-//     radar     up to 1.0 s  dCACC: radar gives an estimate of the leader's acceleration (Ploeg et al. 2015)
-//     acc       older, or the leader has no V2V  ACC: the leader's acceleration counts as unknown
-// A vehicle changes to a worse mode at once. It returns to a better mode after kHysteresis_s without a reason for the
-// present mode. The limits and the hysteresis are our choice, after the states of PlatoonSAFE.
+//     messages      up to 0.3 s  the spacing policy, with the message as feedforward
+//     old_messages  up to 0.5 s  CACC with a time gap: the message is too old for a constant distance
+//     radar         up to 1.0 s  dCACC: radar gives an estimate of the leader's acceleration (Ploeg et al. 2015)
+//     acc           older, or the leader has no V2V  ACC: the leader's acceleration counts as unknown
+// A vehicle changes to a worse mode at once. It returns to a better mode when no age has demanded the present mode for
+// kHysteresis_s. The limits and the hysteresis are our choice, after the states of PlatoonSAFE.
 #pragma once
 
 #include <array>

@@ -8,9 +8,9 @@ namespace stopline {
 
 // Returns the largest number of vehicles behind which an oscillation with the worst frequency has not doubled:
 // n = ln 2 / ln max|Gamma|, with the transfer function Gamma from a vehicle's acceleration to that of its follower
-// (string_stability/string_limits.h). At least 1; 0: oscillations do not grow, so there is no limit. Holds for a
-// constant distance and messages of the leader only. `message_age_s`: mean age of the messages. `lag_s`: lag of the
-// powertrains.
+// (string_stability/string_limits.h). The result is at least 1, or 0 (no limit) if oscillations do not grow. Holds
+// for a constant distance and messages of the leader only. `message_age_s`: mean age of the messages. `lag_s`: lag of
+// the powertrains.
 int stable_platoon_vehicles(const CaccSettings& cacc, double message_age_s, double lag_s);
 
 // Returns true if vehicles need a V2vReceiver: a channel is active, or platoons have a leader or a limited length.

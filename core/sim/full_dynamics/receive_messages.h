@@ -12,9 +12,9 @@
 namespace stopline {
 
 // Receives the messages of this step. Replaces FullGroup::heard_acceleration, heard_request and heard_rate by the last
-// message that has arrived from the leader, extrapolated to the present. Without a recent message, the vehicle falls
-// back (v2v/fallback.h): radar replaces the message, the desired gap grows, and the vehicle does not start from rest on
-// an old message. Only vehicles without human drivers send and receive. Does nothing without an active channel.
+// message that has arrived from the leader, extrapolated to the present. Without a recent message, radar replaces the
+// message and the desired gap grows (v2v/fallback.h). A vehicle at rest does not start on an old message. Only vehicles
+// without human drivers send and receive. Does nothing without an active channel.
 void receive_messages(const Model& model, State& state, std::span<const LaneStep> lanes, const FullGroup& group,
                       Partition& part);
 

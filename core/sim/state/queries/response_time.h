@@ -11,15 +11,14 @@ namespace stopline {
 // Safety. Leader and follower drive at the speed v and can both brake with b. If the follower does the same as its
 // leader, but a time T later, it comes to rest v T closer to the leader. So a gap of v T plus a margin prevents contact
 // whatever the leader does, and whether or not messages arrive. As every follower does the same as its leader, the
-// length of the platoon does not matter. A shorter gap would need followers that brake harder than their leaders, and
-// each one harder than the one before it: with the gap g, 1 / b of the leader would be higher by up to T^2 / (2 g) for
-// each follower.
+// length of the platoon does not matter. With a shorter gap g, each follower would have to brake harder than its
+// leader: its 1 / b would have to be lower than that of its leader by up to T^2 / (2 g).
 //
 // Without messages, T is the delay of the radar, the time to estimate the leader's acceleration, and the lag of the
 // brake. The leader's own lag does not count: radar sees its real motion. If the channel loses no message, T is the
-// longest age of a message. Brakes with the same lag then add nothing, as a message announces the leader's request.
-// A reserve covers one step, and gear changes that weaken the brake for a moment: a stop from 70 km/h thus has
-// 6.8 m/s2 in the mean instead of 7 m/s2, which costs as much as 0.04 s.
+// longest age of a message. Brakes with the same lag then add nothing, as a message announces the leader's request. A
+// reserve covers one step and gear changes, which weaken the brake for a moment. Gear changes reduce the mean
+// deceleration in a stop from 70 km/h from 7 m/s2 to 6.8 m/s2. This costs as much as 0.04 s.
 // Precondition: V2vPlan::is_active.
 double response_time_s(const Model& model, int policy);
 
