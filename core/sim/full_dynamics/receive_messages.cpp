@@ -224,12 +224,15 @@ void find_platoon(const ReceiveStep& step, const V2vReceiver* leader, int slot, 
 
 // Receives the messages of the platoon leader, and replaces the law for following by that of Rajamani while they are
 // recent. To replace the law, the desired gap becomes so small that it does not limit the acceleration, and the law of
-// Rajamani becomes an external demand. All other laws, such as emergency braking, stay as they are.
+// Rajamani becomes an external demand. All other laws, such as emergency braking, stay as they are. A vehicle that is
+// too close to its leader keeps the law of its policy. The law of Rajamani would follow the platoon leader's start even
+// if its own leader still stands.
 // Precondition: the spacing policy keeps a constant distance at this speed.
 void follow_platoon_leader(const ReceiveStep& step, const LaneStep& lane, int slot, int place, const FullGroup& g,
                            V2vReceiver& own) {
     constexpr double kLongestAge_s = 0.15;  // our choice, after the states of PlatoonSAFE
     constexpr double kUnlimitedGap_m = -1e3;
+    constexpr double kTooClose_m = 0.5;
     VehicleArrays& v = step.state.vehicles;
     const int sender_slot = own.platoon_leader_slot;
     Receiver radio(step, lane, slot, sender_slot, own.platoon_leader);
@@ -243,6 +246,7 @@ void follow_platoon_leader(const ReceiveStep& step, const LaneStep& lane, int sl
         radio.receive(own.place_in_platoon * spacing_m);
     }
     if (own.fallback.mode != V2vMode::messages || radio.age_ticks() * step.model.step_s > kLongestAge_s) return;
+    if (static_cast<double>(g.gap[place]) < g.desired_gap[place] - kTooClose_m) return;
     const double u =
         platoon_acceleration(step.plan.settings.platoon_law, step.model.driver_of(v.policy[at(slot)]).tables.cacc, g,
                              place, own.platoon_leader.request_mps2, own.platoon_leader.speed_mps);

@@ -158,6 +158,30 @@ TEST(Platoons, TheLawWithThePlatoonLeaderLeavesTimeGapsAsTheyAre) {
     EXPECT_NE(last_position_m("CDG", "predecessor_and_leader"), last_position_m("CDG", "predecessor"));
 }
 
+// With losses, the platoon leader's message can arrive although the own leader still stands, because it has received
+// none. The vehicle must not close up to it.
+TEST(Platoons, NobodyClosesUpToALeaderThatHasNotHeardOfTheStart) {
+    const double emergency_gap_m = CaccSettings().emergency_gap_m;  // 0.5 m
+    double smallest_m = 1e3;
+    std::size_t mode_changes = 0;
+    for (const char* seed : {"1", "2", "3", "4", "5"}) {
+        TrackPlan plan =
+            platoon_plan({"driver.v2v={channel: gilbert, loss: 50 %, burst: 20, topology: "
+                          "predecessor_and_leader, platoon_law: {leader_weight: 0.9}}",
+                          std::string("seed=") + seed});
+        plan.exit_m = 1500.0;
+        plan.green_from_s = 3.0;
+        Track track = queue(plan, 40);
+        while (track.time_s() < 40.0) {
+            track.step();
+            for (int k = 1; k < track.count(0); ++k) smallest_m = std::min(smallest_m, track.vehicle(0, k).gap_m);
+        }
+        mode_changes += track.state().records.v2v_mode_changes.size();
+    }
+    EXPECT_GT(smallest_m, emergency_gap_m);
+    EXPECT_GT(mode_changes, 100U) << "no losses";
+}
+
 TEST(Platoons, ErrorsDoNotGrowWithThePlatoonLeader) {
     constexpr int kFollowers = 42;
     for (const char* delay : {"20 ms", "50 ms", "100 ms"}) {
