@@ -323,7 +323,9 @@ signal: {green: 12 s, yellow: 3 s, all_red: 1 s}
 demand: {kind: rate, inflow: 701 veh/h, right: 10 %}
 driver: {base: startup_kit, free_drive: {hesitation: 0 s}}
 populations:
-- {name: X, pattern: random, components: [{policy: CTG-HCM, share: 100 %, vehicle: articulated_lorry_35t, driver: lorry}]}
+- name: X
+  pattern: random
+  components: [{policy: CTG-HCM, share: 100 %, vehicle: articulated_lorry_35t, driver: lorry}]
 )",
                                              "test.yaml");
     const IntersectionResult result = run_intersection(scenario, 0);

@@ -7,7 +7,7 @@
 
 namespace stopline {
 
-// What the membership of a vehicle depends on.
+// The data of a vehicle that decide to which platoon it belongs.
 struct PlatoonLink {
     const V2vReceiver* leader = nullptr;  // data of the leader; null: there is no leader
     bool leader_has_v2v = false;

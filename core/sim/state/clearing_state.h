@@ -8,9 +8,9 @@
 
 namespace stopline {
 
-// What the vehicles of a lane with a stop line announce together. The vehicles up to `last_leaver` have booked a place
-// beyond the next intersection and will leave the lane in the present green. The vehicle behind them is the first one
-// that remains.
+// The joint announcement of the vehicles of a lane with a stop line. The vehicles up to `last_leaver` have booked a
+// place beyond the next intersection and will leave the lane in the present green. The vehicle behind them is the first
+// one that remains.
 struct LaneAnnouncement {
     std::int64_t tick = -1;  // step of the announcement
     int last_leaver = -1;    // id of the last vehicle that will leave; -1: none

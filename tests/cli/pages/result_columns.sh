@@ -63,7 +63,8 @@ check_all intersection intersection 3
 run light "$STOPLINE_SOURCE/scenarios/first_steps.yaml" "${brief[@]}" --set measure.string_stability=on
 check_all light single_light 4
 # Runs with a radio channel also write the changes of driving modes.
-radio=(--set fidelity=full --set 'driver.v2v={channel: bernoulli, loss: 50 %}' --set 'populations=[CDG]' --set measure.baseline=CDG)
+radio=(--set fidelity=full --set 'driver.v2v={channel: bernoulli, loss: 50 %}' --set 'populations=[CDG]'
+    --set measure.baseline=CDG)
 run radio_grid "$STOPLINE_SOURCE/scenarios/grid.yaml" "${radio[@]}" --set "duration=40 s" --set "measure.window=20 s" \
     --set network.grid.columns=2 --set network.grid.rows=2
 check "$work/radio_grid/v2v_modes.csv" network/v2v_modes.csv
