@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "measure/zones.h"
@@ -13,7 +14,7 @@
 namespace stopline {
 
 struct RunKind {
-    const char* name;  // one of the names in scenario/kinds/network_kind.h
+    std::string_view name;  // one of the names in scenario/kinds/network_kind.h
     // Runs one population and returns its metrics, as run_metrics() does.
     std::vector<RunMetric> (*metrics)(const Scenario& scenario, std::size_t population,
                                       const std::function<bool()>& keep_going);

@@ -36,7 +36,8 @@ inline std::vector<std::pair<std::string, std::string>> roundabout_trips() {
     return trips;
 }
 
-// Draws random plans.
+// Draws random plans. If a call needs several random numbers, each is drawn in a statement of its own. Reason: the
+// order in which arguments are evaluated depends on the compiler.
 class PlanDraw {
 public:
     explicit PlanDraw(std::uint64_t seed) : random_(seed) {}
@@ -137,7 +138,12 @@ public:
         if (chance(25)) p.politeness = number(1, 10) / 10.0;
         if (chance(25)) p.keep_right_mps2 = number(1, 5) / 10.0;
         p.gap_opening = chance(75) ? "on" : "off";
-        p.streets = chance(50) ? one_street(number(120, 260)) : two_streets(number(120, 220), number(90, 250));
+        if (chance(50)) {
+            p.streets = one_street(number(120, 260));
+        } else {
+            const int distance_m = number(90, 250);
+            p.streets = two_streets(number(120, 220), distance_m);
+        }
         p.duration_s = is_mesoscale ? number(40, 100) : number(25, 40);
         return p;
     }
@@ -310,33 +316,43 @@ private:
             "{movements: straight+left}, {movements: straight}, {movements: right, pocket: 35 m}"};
         std::string text;
         for (const char* const from : {"west", "east"}) {
+            const int right_percent = number(1, 9) * 5;
+            const int left_percent = number(1, 9) * 5;
             text += fmt::format(
                 "      - {{from: {}, lanes: [{}], exits: 2, left: {} %, right: {} %, length: {} m, exit_length: 60 m}}\n",
-                from, one_of(kMajor), number(1, 9) * 5, number(1, 9) * 5, length_m);
+                from, one_of(kMajor), left_percent, right_percent, length_m);
         }
         for (const char* const from : {"north", "south"}) {
+            const int minor_length_m = number(80, 150);
+            const int right_percent = number(1, 4) * 10;
+            const int left_percent = number(1, 4) * 10;
             text += fmt::format(
                 "      - {{from: {}, lanes: [{{movements: straight+left+right}}], exits: 2, left: {} %, right: {} %, "
                 "length: {} m, exit_length: 50 m}}\n",
-                from, number(1, 4) * 10, number(1, 4) * 10, number(80, 150));
+                from, left_percent, right_percent, minor_length_m);
         }
         return text;
     }
 
     std::string programme() {
+        const int protected_left_s = chance(50) ? 0 : 4;
+        const int clearance_s = number(2, 5);
         return fmt::format(
             "      programme: {{major_green: {} s, major_yellow: 3 s, major_clearance: {} s, protected_left: {} s, "
             "minor_green: 8 s, minor_yellow: 3 s, minor_clearance: 3 s}}\n",
-            number(6, 16), number(2, 5), chance(50) ? 0 : 4);
+            number(6, 16), clearance_s, protected_left_s);
     }
 
     std::string one_street(int length_m) {
-        return "    median: 4 m\n    intersections:\n    - name: a\n" + programme() + "      legs:\n" + legs(length_m);
+        const std::string times = programme();
+        return "    median: 4 m\n    intersections:\n    - name: a\n" + times + "      legs:\n" + legs(length_m);
     }
     std::string two_streets(int length_m, int distance_m) {
         const std::string times = programme();
-        return "    median: 4 m\n    intersections:\n    - name: a\n" + times + "      legs:\n" + legs(length_m) +
-               fmt::format("    - name: b\n      x: {} m\n      offset: {} s\n", distance_m, number(0, 20)) + times +
+        const std::string legs_of_a = legs(length_m);
+        const int offset_s = number(0, 20);
+        return "    median: 4 m\n    intersections:\n    - name: a\n" + times + "      legs:\n" + legs_of_a +
+               fmt::format("    - name: b\n      x: {} m\n      offset: {} s\n", distance_m, offset_s) + times +
                "      legs:\n" + legs(length_m);
     }
 

@@ -57,7 +57,7 @@ const std::vector<TableDoc>& table_docs() {
     return kTables;
 }
 
-std::string table_group(const NetworkSettings& network) { return network_kind(network).run; }
+std::string table_group(const NetworkSettings& network) { return std::string(network_kind(network).run); }
 
 std::vector<ColumnDoc> with_population(const std::vector<ColumnDoc>& columns) {
     std::vector<ColumnDoc> all{kPopulationColumn};

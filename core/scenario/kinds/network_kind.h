@@ -24,9 +24,9 @@ namespace stopline {
 
 // The names of the ways of running a scenario (RunKind in runs/run_kind.h). scenarios/COLUMNS.md puts this name before
 // the name of a table, as in `network/summary.csv`.
-inline constexpr const char* kRunAsSingleLight = "single_light";
-inline constexpr const char* kRunAsIntersection = "intersection";
-inline constexpr const char* kRunAsNetwork = "network";
+inline constexpr std::string_view kRunAsSingleLight = "single_light";
+inline constexpr std::string_view kRunAsIntersection = "intersection";
+inline constexpr std::string_view kRunAsNetwork = "network";
 
 // The street that a time-space diagram shows.
 struct DiagramStreet {
@@ -38,7 +38,7 @@ struct NetworkKind {
     const char* name = "";
     const char* meaning = "";  // description in lists for the user
     // How a scenario is run, measured and reported: one of the names above.
-    const char* run = "";
+    std::string_view run;
 
     // Number of signal groups of each intersection that the section `signal` describes. 0: the kind has signals of its
     // own, and the section is not allowed.
