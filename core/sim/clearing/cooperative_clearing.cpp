@@ -49,6 +49,7 @@ public:
     // Returns the slot of the vehicle that is refused; -1: none.
     int run() {
         while (end_ > bound_) change_booking(--end_, -1.0);
+        const int first_new = end_;
         if (state_.tick % clearing_.announcement_ticks == 0) {
             withdraw();
             announce();
@@ -59,6 +60,7 @@ public:
         }
         const bool has_admitted = end_ > block_.first && !is_past_line(end_ - 1);
         clearing_.last_admitted[at(lane_)] = has_admitted ? v_.id[at(end_ - 1)] : -1;
+        if (end_ > first_new) clearing_.latest_admissions[at(lane_)] = {v_.id[at(first_new)], state_.tick};
         return refused_;
     }
 
@@ -68,9 +70,10 @@ private:
     bool stays_refused() {
         if (end_ >= bound_ || !is_held(end_) || light_of(end_) != Light::green) return false;
         const int connection = connection_of(end_);
-        if (connection < 0 || !cooperates(model_, state_, end_)) return false;
+        if (connection < 0 || !has_v2v(state_, end_)) return false;
         refused_ = end_;
-        state_.stop_lines.held_at_green[at(lane_)] = {last_on_exit(connection), true, true};
+        const bool is_keep_clear = clearing_.refusals[at(lane_)].is_keep_clear;
+        state_.stop_lines.held_at_green[at(lane_)] = {last_on_exit(connection), true, !is_keep_clear};
         return true;
     }
 
@@ -97,18 +100,26 @@ private:
         return exit_booking(model_, state_, state_.plan.lane(connection_of(slot)).exit);
     }
 
+    KnownRoom room_of(int slot) {
+        const int connection = connection_of(slot);
+        const LanePlan& path = state_.plan.lane(connection);
+        const double to_exit_m = plan_.length_m - v_.position_m[at(slot)] + path.length_m;
+        return known_room(model_, state_, {lane_, slot, path.exit, to_exit_m});
+    }
+
     void change_booking(int slot, double sign) {
         if (!books(slot)) return;
         ExitBooking& booking = booking_of(slot);
         booking.room_m -= sign * space_needed_m(v_, slot);
         booking.present_room_m -= sign * space_needed_m(v_, slot);
+        booking.booked_m += sign * space_needed_m(v_, slot);
     }
 
     // Ends the admission of vehicles for which there is no more room, if they can still stop. This happens if a vehicle
     // without V2V has taken a booked place, or if a vehicle leaves its lane later than announced.
     void withdraw() {
         while (end_ > block_.first && !is_past_line(end_ - 1) && books(end_ - 1)) {
-            if (booking_of(end_ - 1).room_m >= -static_cast<double>(v_.standstill_gap_m[at(end_ - 1)])) return;
+            if (room_of(end_ - 1).room_m >= -static_cast<double>(v_.standstill_gap_m[at(end_ - 1)])) return;
             if (light_of(end_ - 1) != Light::green || !can_hold(end_ - 1)) return;
             change_booking(--end_, -1.0);
         }
@@ -133,7 +144,8 @@ private:
             if (!decides) return false;
             refused_ = slot;
             if (clearing_.refusals[at(lane_)].vehicle != v_.id[at(slot)])
-                clearing_.refusals[at(lane_)] = {v_.id[at(slot)], state_.tick};
+                clearing_.refusals[at(lane_)] = {v_.id[at(slot)], state_.tick, false};
+            clearing_.refusals[at(lane_)].is_keep_clear = !hold_.is_refusal;
             state_.stop_lines.held_at_green[at(lane_)] = hold_;
             return false;
         }
@@ -146,16 +158,20 @@ private:
     bool may_enter(int slot) {
         const int connection = connection_of(slot);
         if (connection < 0 || !state_.plan.lane(connection).keep_clear) return true;
-        const bool has_v2v = cooperates(model_, state_, slot);
-        if (has_v2v && books(slot) ? !has_place(slot) : !has_visible_room(slot)) {
-            hold_ = {last_on_exit(connection), true, has_v2v};
+        bool cooperates = has_v2v(state_, slot);
+        KnownRoom room;
+        const bool needs_place = cooperates && books(slot);
+        if (needs_place) room = room_of(slot);
+        if (!room.is_fresh) cooperates = false;
+        if (needs_place && room.is_fresh ? !has_place(slot, room) : !has_visible_room(slot)) {
+            hold_ = {last_on_exit(connection), true, cooperates};
             return false;
         }
         if (const int blocker = crossing_blocker(model_, state_, connection); blocker >= 0) {
-            hold_ = {blocker, false, has_v2v};
+            hold_ = {blocker, false, cooperates};
             return false;
         }
-        if (has_v2v && may_stop_inside(slot, connection)) {
+        if (cooperates && may_stop_inside(slot, connection)) {
             hold_ = {slot == block_.first ? -1 : slot - 1, false, true};
             return false;
         }
@@ -168,9 +184,8 @@ private:
     }
 
     // Returns true if the exit lane has a place for the vehicle that it can reach without a stop in a conflict area.
-    bool has_place(int slot) {
+    bool has_place(int slot, const KnownRoom& booking) const {
         const int connection = connection_of(slot);
-        const ExitBooking& booking = booking_of(slot);
         const double length_m = v_.length_m[at(slot)];
         if (booking.room_m - respected_claims_m(slot, connection) < length_m - kRounding_m) return false;
         if (booking.present_room_m >= length_m) return true;
@@ -274,7 +289,7 @@ private:
             if (all_leave) own.last_leaver = v_.id[at(slot)];
         }
         const std::int64_t number = state_.tick / clearing_.announcement_ticks;
-        clearing_.announcements[at(lane_)][static_cast<std::size_t>(number % 2)] = own;
+        clearing_.announcements[at(lane_)][static_cast<std::size_t>(number % 4)] = own;
     }
 
     // Returns true if an admitted vehicle is sure to leave the lane once it has reached the line. A vehicle that may
@@ -283,7 +298,7 @@ private:
         const int connection = connection_of(slot);
         if (connection < 0) return is_on_last_edge(state_, slot);
         if (clearing_.connections[at(connection)].last_yield_m >= 0.0) return false;
-        return passes || cooperates(model_, state_, slot) || v_.speed_mps[at(slot)] >= kCrawlingSpeed_mps;
+        return passes || has_v2v(state_, slot) || v_.speed_mps[at(slot)] >= kCrawlingSpeed_mps;
     }
 
     const Model& model_;
@@ -316,7 +331,7 @@ void add_claims(const Model& model, State& state, int lane) {
         if (state.signals.lights[at(group)] == Light::green || v.position_m[at(slot)] > plan.stop_line_m) continue;
         if (arrival_s > next_green_s(model, state, group)) break;
         const bool is_urgent = was_refused_since(model, state, lane, slot, state.signals.green_start_tick[at(group)]);
-        if (!(is_urgent || clearing.connections[at(next)].turns) || !cooperates(model, state, slot)) continue;
+        if (!(is_urgent || clearing.connections[at(next)].turns) || !has_v2v(state, slot)) continue;
         const int exit = state.plan.lane(next).exit;
         clearing.claims_m[at(exit)] += space_needed_m(v, slot);
         if (is_urgent) clearing.urgent_claims_m[at(exit)] += space_needed_m(v, slot);
@@ -348,6 +363,7 @@ void init_clearing(const Model& model, State& state) {
     const std::size_t lanes = model.graph.lanes.size();
     clearing.announcements.resize(lanes);
     clearing.last_admitted.assign(lanes, -1);
+    clearing.latest_admissions.resize(lanes);
     clearing.bookings.resize(lanes);
     clearing.refusals.resize(lanes);
     clearing.claims_m.assign(lanes, 0.0);

@@ -14,26 +14,27 @@ constexpr double kNeverStarts_s = 1e9;
 constexpr double kAmpleRoom_m = 1e9;
 constexpr double kClearReserve_m = 1.0;  // distance from the conflict area to the rear of a vehicle at rest
 
-// Returns true if the newest announcement of the sender has arrived in time. The channel is ideal at present, so every
-// message arrives.
-bool is_fresh(const State& /*state*/, int /*slot*/) { return true; }
-
-// Returns the latest announcement of a lane that was complete before this step.
-const LaneAnnouncement& latest_announcement(const State& state, int lane) {
-    const std::int64_t interval = state.clearing.announcement_ticks;
-    const std::int64_t number = (state.tick - 1) / interval;
-    return state.clearing.announcements[at(lane)][static_cast<std::size_t>(number % 2)];
-}
-
 // Determines the room on an exit lane.
 class RoomSearch {
 public:
-    RoomSearch(const Model& model, const State& state, int exit)
-        : model_(model), state_(state), v_(state.vehicles), exit_(exit), block_(state.blocks[at(exit)]) {}
+    // `announcement`: that of the vehicles on the exit lane; nullptr: none.
+    RoomSearch(const Model& model, const State& state, int exit, const LaneAnnouncement* announcement)
+        : model_(model),
+          state_(state),
+          v_(state.vehicles),
+          exit_(exit),
+          block_(state.blocks[at(exit)]),
+          announcement_(announcement) {}
 
-    ExitBooking run() {
+    // Returns the room without bookings.
+    ExitBooking find_room() {
         find_place_of_rest();
         if (block_.count > 0) find_present_room();
+        return result_;
+    }
+
+    ExitBooking run() {
+        find_room();
         for (const int connection : model_.connections_to[at(exit_)]) subtract_vehicles_to(connection);
         return result_;
     }
@@ -48,12 +49,11 @@ private:
         const double line_rest_m = lane.stop_line_m - state_.clearing.line_margin_m;
         double rest_m = line_rest_m;
         int slot = block_.first;
-        const LaneAnnouncement& latest = latest_announcement(state_, exit_);
-        if (latest.tick >= 0 && latest.tick >= state_.tick - state_.clearing.announcement_ticks) {
-            const int leaver = find(latest.last_leaver);
+        if (announcement_ != nullptr) {
+            const int leaver = slot_on_lane(state_, exit_, announcement_->last_leaver);
             has_leaver_ = leaver >= 0;
             if (has_leaver_) slot = leaver + 1;
-            rest_m = latest.rest_m;
+            rest_m = announcement_->rest_m;
         }
         bool is_final = !has_leaver_;
         for (; slot < block_.past_last(); ++slot) {
@@ -67,15 +67,6 @@ private:
         result_.room_m = rest_m - kClearReserve_m;
         result_.present_room_m = kAmpleRoom_m;
         result_.last_slot = block_.count > 0 ? block_.last() : -1;
-    }
-
-    // Returns the slot of the vehicle with this id on the exit lane; -1: none.
-    int find(int id) const {
-        if (id < 0) return -1;
-        for (int slot = block_.first; slot < block_.past_last(); ++slot) {
-            if (v_.id[at(slot)] == id) return slot;
-        }
-        return -1;
     }
 
     // Finds the last stopped vehicle and the time until it starts. In a queue that starts, each vehicle starts one time
@@ -107,6 +98,7 @@ private:
     void subtract(int slot) {
         result_.room_m -= space_needed_m(v_, slot);
         result_.present_room_m -= space_needed_m(v_, slot);
+        result_.booked_m += space_needed_m(v_, slot);
     }
 
     const Model& model_;
@@ -114,14 +106,24 @@ private:
     const VehicleArrays& v_;
     int exit_;
     const LaneBlock& block_;
+    const LaneAnnouncement* announcement_;
     bool has_leaver_ = false;
     ExitBooking result_;
 };
 
 }  // namespace
 
-bool cooperates(const Model& /*model*/, const State& state, int slot) {
-    return state.clearing.policies[at(state.vehicles.policy[at(slot)])].has_v2v && is_fresh(state, slot);
+bool has_v2v(const State& state, int slot) {
+    return state.clearing.policies[at(state.vehicles.policy[at(slot)])].has_v2v;
+}
+
+int slot_on_lane(const State& state, int lane, int id) {
+    if (id < 0) return -1;
+    const LaneBlock& block = state.blocks[at(lane)];
+    for (int slot = block.first; slot < block.past_last(); ++slot) {
+        if (state.vehicles.id[at(slot)] == id) return slot;
+    }
+    return -1;
 }
 
 int admitted_end(const State& state, int lane) {
@@ -145,8 +147,25 @@ bool takes_bookings(const State& state, int exit, double length_m) {
 
 ExitBooking& exit_booking(const Model& model, State& state, int exit) {
     ExitBooking& booking = state.clearing.bookings[at(exit)];
-    if (booking.tick != state.tick) booking = RoomSearch(model, state, exit).run();
+    if (booking.tick != state.tick) booking = RoomSearch(model, state, exit, latest_announcement(state, exit)).run();
     return booking;
+}
+
+KnownRoom known_room(const Model& model, State& state, const Listener& listener) {
+    const ExitBooking& booking = exit_booking(model, state, listener.exit);
+    if (!uses_channel(model)) return {true, booking.room_m, booking.present_room_m, booking.start_s};
+    const ReceivedAnnouncement received = received_announcement(model, state, listener);
+    const ReceivedBookings bookings = received_bookings(model, state, listener);
+    KnownRoom known{received.is_fresh && bookings.is_fresh, booking.room_m, booking.present_room_m, booking.start_s};
+    if (received.announcement != latest_announcement(state, listener.exit)) {
+        const ExitBooking found = RoomSearch(model, state, listener.exit, received.announcement).find_room();
+        known.room_m = found.room_m - booking.booked_m;
+        known.present_room_m = found.present_room_m - booking.booked_m;
+        known.start_s = found.start_s;
+    }
+    known.room_m += bookings.unknown_m;
+    known.present_room_m += bookings.unknown_m;
+    return known;
 }
 
 }  // namespace stopline

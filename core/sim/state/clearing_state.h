@@ -25,8 +25,9 @@ struct ExitBooking {
     double room_m = 0.0;     // length that is free after all vehicles have come to rest; below 0: overbooked
     // Length that is free behind the last stopped vehicle (slower than 1 m/s), at its present position.
     double present_room_m = 0.0;
-    double start_s = 0.0;  // time until this stopped vehicle starts, at the latest
-    int last_slot = -1;    // slot of the last vehicle on the lane; -1: none
+    double start_s = 0.0;   // time until this stopped vehicle starts, at the latest
+    int last_slot = -1;     // slot of the last vehicle on the lane; -1: none
+    double booked_m = 0.0;  // length that admitted vehicles need, part of both rooms
 };
 
 // The constants of a spacing policy. The forecasts of arrivals at a stop line use them.
@@ -46,17 +47,25 @@ struct ClearingConnection {
 
 // The vehicle of a lane that was refused last.
 struct Refusal {
-    int vehicle = -1;       // id; -1: none
-    std::int64_t tick = 0;  // step in which the vehicle was refused first
+    int vehicle = -1;            // id; -1: none
+    std::int64_t tick = 0;       // step in which the vehicle was refused first
+    bool is_keep_clear = false;  // the keep-clear rule holds the vehicle, because it has received too few messages
+};
+
+// The vehicles of a lane that were admitted in the latest step with an admission: `first_vehicle` and those behind it.
+struct LatestAdmission {
+    int first_vehicle = -1;  // id; -1: none
+    std::int64_t tick = -1;
 };
 
 struct ClearingState {
-    // [lane][number of the announcement modulo 2]. A step that makes announcements reads those before it, so the order
-    // of threads does not matter.
-    std::vector<std::array<LaneAnnouncement, 2>> announcements;
-    std::vector<int> last_admitted;     // [lane] id of the last admitted vehicle on the lane; -1: none
-    std::vector<ExitBooking> bookings;  // [exit lane]
-    std::vector<Refusal> refusals;      // [lane]
+    // [lane][number of the announcement modulo 4]. A step that makes announcements reads those before it, so the order
+    // of threads does not matter. With a V2V channel, a vehicle may know only an older one of the last second.
+    std::vector<std::array<LaneAnnouncement, 4>> announcements;
+    std::vector<int> last_admitted;                  // [lane] id of the last admitted vehicle on the lane; -1: none
+    std::vector<LatestAdmission> latest_admissions;  // [lane]
+    std::vector<ExitBooking> bookings;               // [exit lane]
+    std::vector<Refusal> refusals;                   // [lane]
     // [exit lane] Length that vehicles claim which wait at red signals. Vehicles refused in their last green have an
     // urgent claim. Turning vehicles have a claim, too.
     std::vector<double> urgent_claims_m;

@@ -1,0 +1,48 @@
+// Cooperative clearing over a V2V channel: the messages of other vehicles that a vehicle has received.
+//
+// Every V2V message carries the announcement of the sender's lane and the place that the sender has booked. A message is
+// delayed and lost like any other message of the same sender. The vehicles of one lane are close to each other, so no
+// loss is assumed between them when they make their joint announcement. Claims are not lost either: they change the
+// order of the vehicles, but not whether a place is free.
+#pragma once
+
+#include <cstdint>
+
+#include "sim/state/clearing_state.h"
+#include "sim/state/model.h"
+#include "sim/state/state.h"
+
+namespace stopline {
+
+// A vehicle that approaches its stop line and listens to the vehicles on its exit lane and on the other approaches.
+struct Listener {
+    int lane = -1;  // approach lane
+    int slot = -1;
+    int exit = -1;           // exit lane
+    double to_exit_m = 0.0;  // distance from the vehicle's front to the start of the exit lane
+};
+
+// Returns true if the vehicles send over a channel with delays or losses. If not, each announcement is known to all
+// vehicles in the step after it was made.
+inline bool uses_channel(const Model& model) { return model.v2v_plan.channel != nullptr; }
+
+// Returns the latest announcement of a lane that was complete before this step; nullptr: none.
+const LaneAnnouncement* latest_announcement(const State& state, int lane);
+
+// The newest announcement that a listener has received from its exit lane.
+struct ReceivedAnnouncement {
+    bool is_fresh = false;                           // the newest message from the exit lane is at most 1 s old
+    const LaneAnnouncement* announcement = nullptr;  // nullptr: the vehicles of the lane have announced nothing
+};
+// Preconditions: uses_channel(). A lane without V2V vehicles counts as fresh: the vehicle sees the lane.
+ReceivedAnnouncement received_announcement(const Model& model, const State& state, const Listener& listener);
+
+// The bookings on the exit lane by vehicles of other approach lanes.
+struct ReceivedBookings {
+    bool is_fresh = true;    // the newest message of each vehicle with a booking is at most 1 s old
+    double unknown_m = 0.0;  // length that is booked, but the message about it has not arrived
+};
+// Precondition: uses_channel().
+ReceivedBookings received_bookings(const Model& model, const State& state, const Listener& listener);
+
+}  // namespace stopline
