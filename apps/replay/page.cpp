@@ -32,6 +32,8 @@ public:
 
     void add_frame(const FrameDecoder& frame) {
         present_ = 0;
+        links_.assign(run_.links.size(), 0);
+        for (const VehicleLink& link : frame.links()) ++links_[static_cast<std::size_t>(link.kind)];
         exited_ += static_cast<std::uint32_t>(frame.exited());
         std::unordered_map<int, Position> now;
         for (const RecordedVehicle& seat : frame.seats()) {
@@ -46,6 +48,8 @@ public:
     }
 
     std::uint32_t present() const { return present_; }
+    // Returns the number of links of each kind in the latest frame.
+    const std::vector<std::uint32_t>& links() const { return links_; }
     std::uint32_t exited() const { return exited_; }
     std::uint32_t passages() const { return passages_; }
 
@@ -67,6 +71,7 @@ private:
     const RecordedRun& run_;
     std::unordered_map<int, Position> last_positions_;  // [vehicle] position in the previous frame
     std::uint32_t present_ = 0;
+    std::vector<std::uint32_t> links_;
     std::uint32_t exited_ = 0;
     std::uint32_t passages_ = 0;
 };
@@ -136,6 +141,12 @@ ReplayPage make_replay_page(RecordingReader& reader, const ReplayWindow& window,
                                        {"meaning", counter.meaning},
                                        {"per_hour", counter.per_hour}});
     }
+    for (const std::string& link : run.links) {
+        payload["counters"].push_back({{"id", "count-link-" + link},
+                                       {"label", link + " now"},
+                                       {"meaning", "vehicles at the start of a link of this kind"},
+                                       {"per_hour", false}});
+    }
     for (RecordedSection section; reader.next(section);) {
         if (on_frames && !on_frames(reader.frames())) throw Interrupted();
         const double begin_s = run.grid.time_s(section.first_frame);
@@ -148,6 +159,7 @@ ReplayPage make_replay_page(RecordingReader& reader, const ReplayWindow& window,
                 vehicles.add_frame(decoder);
                 if (!selected) continue;
                 for (const Counter& counter : kCounters) put_number(series, (vehicles.*counter.value)());
+                for (const std::uint32_t links : vehicles.links()) put_number(series, links);
                 page.max_present = std::max(page.max_present, vehicles.present());
             }
             decoder.check_end();

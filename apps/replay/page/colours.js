@@ -18,6 +18,11 @@ const CAUSES = {
     refusal: ['#b39ddb', 'refusal (cooperative clearing)'],
 };
 
+// Colour and label of each kind of links between vehicles, by its name in the recording.
+const LINKS = {
+    refusal: ['#6a1b9a', 'refused: waits for room (line to the vehicle or lane)'],
+};
+
 // Returns the ways to colour vehicles, by name. Each way has colours, their labels, and a function `of` that returns
 // the index of the colour of vehicle k in a frame.
 function colourModes(head, policyColours) {

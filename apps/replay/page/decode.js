@@ -50,6 +50,7 @@ class Frame {
         this.position_m = new Float32Array(count);
         this.speed_mps = new Float32Array(count);
         this.lights = null;
+        this.links = [];  // {kind, vehicle, other (-1: none), lane (-1: none)}
         this.index = null;  // Map from vehicle number to the index in the arrays, built on first use
     }
     // Returns the index of a vehicle in the arrays, or -1 if the vehicle is not in the network.
@@ -69,6 +70,7 @@ class SectionDecoder {
         this.in = new Bytes(bytes);
         this.seats = [];
         this.lights = new Uint8Array(head.signal_groups);
+        this.links = [];
     }
 
     frames(count) {
@@ -77,6 +79,7 @@ class SectionDecoder {
 
     frame() {
         this.readEvents();
+        if (this.head.links) this.readLinks();
         this.in.varint();  // skip the counts of entries and exits; Recording.series contains them
         this.in.varint();
         this.readColumns();
@@ -108,6 +111,13 @@ class SectionDecoder {
             vehicle.cause = read();
             vehicle.waitedFor = read() - 1;
         }
+    }
+
+    readLinks() {
+        const read = () => this.in.varint();
+        this.links = Array.from({length: read()}, () => {
+            return {kind: read(), vehicle: read(), other: read() - 1, lane: read() - 1};
+        });
     }
 
     readColumns() {
@@ -156,6 +166,7 @@ class SectionDecoder {
             frame.waitedFor[k] = -1;
         });
         frame.lights = this.lights.slice();
+        frame.links = this.links;
         return frame;
     }
 }

@@ -10,6 +10,10 @@ class Replay {
         Object.assign(this, {recording, head, playing: false, rate: 5, time_s: recording.time_s(0), selected: -1});
         this.last_s = recording.time_s(recording.frameCount - 1);
         this.modes = colourModes(head, recording.payload.policy_colours);
+        this.linkKinds = (head.links || []).map((name) => {
+            const [colour, label] = LINKS[name] || ['#000000', name];
+            return {colour, label};
+        });
         this.network = new Network(head);
         this.map = new MapView(byId('map'), this.network, (number) => this.select(number));
         this.diagram = new TimeSpace(byId('time-space'), recording, (time_s) => this.seek(time_s));
@@ -60,7 +64,14 @@ class Replay {
             bar.style.background = colour;
             lights.append(bar, ['red', 'green', 'yellow'][k]);
         });
-        byId('legend').replaceChildren(...items, lights);
+        byId('legend').replaceChildren(...items, ...this.linkKinds.map(({colour, label}) => {
+            const item = document.createElement('li');
+            const ring = document.createElement('i');
+            ring.className = 'ring';
+            ring.style.borderColor = colour;
+            item.append(ring, label);
+            return item;
+        }), lights);
         this.diagram.show(this.street, this.mode);
         this.requestDraw();
     }
@@ -145,7 +156,8 @@ class Replay {
         this.recording.frame(Math.min(number + PREFETCH_FRAMES, this.recording.frameCount - 1));
         this.hasFrame = from !== null;
         byId('message').textContent = from ? '' : 'Unpacking \u2026';
-        this.map.draw(from, to, Math.max(at - number, 0), this.head.frame_s, this.mode, this.street, this.selected);
+        this.map.draw(from, to, Math.max(at - number, 0), this.head.frame_s, this.mode, this.street, this.selected,
+                      this.linkKinds.map(({colour}) => colour));
         this.diagram.draw(this.time_s);
         this.showCounters(number);
         if (from) this.showVehicle(from, number);

@@ -72,15 +72,20 @@ class MapView {
     }
 
     // Draws the state at `share` (0 to 1) of the time between two frames. Marks `street`, and the vehicle with the
-    // number `selected` (-1: none).
-    draw(from, to, share, frame_s, mode, street, selected) {
+    // number `selected` (-1: none). `linkColours` has a colour for each kind of links.
+    draw(from, to, share, frame_s, mode, street, selected, linkColours) {
         const {ctx} = this;
         if (this.stale || this.drawnStreet !== street) this.drawRoads(street);
         ctx.setTransform(1, 0, 0, 1, 0, 0);
         ctx.drawImage(this.roads, 0, 0);
         if (!from) return;
         this.setTransform(ctx);
+        this.linkedVehicles = new Map();  // from the number of a vehicle with a link to its centre
+        for (const link of from.links) {
+            for (const number of [link.vehicle, link.other]) this.linkedVehicles.set(number, null);
+        }
         this.drawVehicles(from, to, share, frame_s, mode, selected);
+        this.drawLinks(from.links, linkColours);
         this.network.drawLights(ctx, this.scale, from.lights);
     }
 
@@ -117,6 +122,9 @@ class MapView {
         let mark = null;
         this.drawnVehicles = [];  // x, y and number of each vehicle in view, for pick()
         interpolate(this.network, from, to, share, frame_s, (k, [fx, fy, rx, ry]) => {
+            if (this.linkedVehicles.has(from.number[k])) {
+                this.linkedVehicles.set(from.number[k], [(fx + rx) / 2, (fy + ry) / 2]);
+            }
             if (fx < left || fx > right || fy > top || fy < bottom) return;
             const length = Math.hypot(fx - rx, fy - ry) || 1;
             const [nx, ny] = [-(fy - ry) / length * half_m, (fx - rx) / length * half_m];
@@ -147,6 +155,34 @@ class MapView {
         ctx.strokeStyle = '#111820';
         ctx.lineWidth = 2 * this.ratio / scale;
         ctx.stroke();
+    }
+
+    // Marks each vehicle at the start of a link with a ring, and draws a line to the other vehicle. Without one, the
+    // line ends at the start of the lane.
+    drawLinks(links, colours) {
+        const {ctx, scale} = this;
+        const pixel = this.ratio / scale;
+        for (const {kind, vehicle, other, lane} of links) {
+            const from = this.linkedVehicles.get(vehicle);
+            if (!from) continue;
+            let to = this.linkedVehicles.get(other);
+            if (!to && lane >= 0) to = this.network.lanes[lane].shape.numbers.slice(0, 2);
+            ctx.strokeStyle = ctx.fillStyle = colours[kind];
+            ctx.lineWidth = Math.max(1.5 * pixel, 0.4);
+            ctx.beginPath();
+            ctx.arc(from[0], from[1], Math.max(4 * pixel, 2.2), 0, 2 * Math.PI);
+            ctx.stroke();
+            if (!to) continue;
+            ctx.setLineDash([4 * pixel, 3 * pixel]);
+            ctx.beginPath();
+            ctx.moveTo(from[0], from[1]);
+            ctx.lineTo(to[0], to[1]);
+            ctx.stroke();
+            ctx.setLineDash([]);
+            ctx.beginPath();
+            ctx.arc(to[0], to[1], Math.max(2 * pixel, 0.9), 0, 2 * Math.PI);
+            ctx.fill();
+        }
     }
 
     // Returns the number of the vehicle nearest to a point in canvas pixels, or -1 if no vehicle is near.

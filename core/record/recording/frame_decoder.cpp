@@ -19,6 +19,7 @@ FrameDecoder::FrameDecoder(const RecordedRun& run, std::string_view section)
 
 void FrameDecoder::next() {
     read_events();
+    if (!run_.links.empty()) read_links();
     entered_ = static_cast<std::int64_t>(reader_.varint(kMaxNumber));
     exited_ = static_cast<std::int64_t>(reader_.varint(kMaxNumber));
     read_columns();
@@ -59,6 +60,18 @@ void FrameDecoder::read_events() {
         RecordedVehicle& waiting = read_seat();
         waiting.cause = reader_.index(run_.causes.size());
         waiting.waited_for = static_cast<int>(reader_.varint(kMaxNumber)) - 1;
+    }
+}
+
+void FrameDecoder::read_links() {
+    links_.clear();
+    for (std::uint64_t n = reader_.varint(kMaxNumber); n > 0; --n) {
+        VehicleLink link;
+        link.kind = reader_.index(run_.links.size());
+        link.vehicle = static_cast<int>(reader_.varint(kMaxNumber - 1));
+        link.other = static_cast<int>(reader_.varint(kMaxNumber)) - 1;
+        link.lane = reader_.index(run_.lanes.size() + 1) - 1;
+        links_.push_back(link);
     }
 }
 

@@ -7,6 +7,7 @@
 
 #include "record/recording/bytes.h"
 #include "record/recording/recording_header.h"
+#include "record/recording/vehicle_links.h"
 
 namespace stopline {
 
@@ -35,6 +36,7 @@ public:
 
     const std::vector<RecordedVehicle>& seats() const { return seats_; }
     const std::vector<std::uint8_t>& lights() const { return lights_; }  // [signal group] 0 red, 1 green, 2 yellow
+    const std::vector<VehicleLink>& links() const { return links_; }     // `kind`: index in RecordedRun::links
     // Return the numbers of vehicles that entered and exited the network since the previous frame.
     std::int64_t entered() const { return entered_; }
     std::int64_t exited() const { return exited_; }
@@ -42,12 +44,14 @@ public:
 private:
     RecordedVehicle& read_seat();
     void read_events();
+    void read_links();
     void read_columns();
 
     const RecordedRun& run_;
     ByteReader reader_;
     std::vector<RecordedVehicle> seats_;
     std::vector<std::uint8_t> lights_;
+    std::vector<VehicleLink> links_;
     std::int64_t entered_ = 0;
     std::int64_t exited_ = 0;
 };

@@ -32,7 +32,10 @@ void FrameEncoder::Events::append_to(std::string& frame) const {
 }
 
 FrameEncoder::FrameEncoder(const Model& model, const FrameGrid& grid)
-    : watch_ticks_(model.rules.watch_ticks), grid_(grid), lanes_(model.graph.lanes.size()) {
+    : watch_ticks_(model.rules.watch_ticks),
+      has_links_(!link_kinds_of(model).empty()),
+      grid_(grid),
+      lanes_(model.graph.lanes.size()) {
     lights_.assign(at(model.graph.signal_groups), Light::red);
 }
 
@@ -65,6 +68,7 @@ void FrameEncoder::append(const Snapshot& snapshot, std::string& bytes) {
     encode_exits();
     encode_causes(snapshot);
     for (const Events& events : events_) events.append_to(bytes);
+    if (has_links_) append_links(snapshot.links, bytes);
     put_varint(bytes, static_cast<std::uint64_t>(snapshot.entered - entered_));
     put_varint(bytes, static_cast<std::uint64_t>(snapshot.exited - exited_));
     entered_ = snapshot.entered;
@@ -246,6 +250,16 @@ void FrameEncoder::encode_reason(int seat, const Reason& reason) {
     put_varint(events.bytes, static_cast<std::uint64_t>(reason.cause));
     put_varint(events.bytes, plus_one(reason.waited_for));
     ++events.count;
+}
+
+void FrameEncoder::append_links(const std::vector<VehicleLink>& links, std::string& bytes) {
+    put_varint(bytes, links.size());
+    for (const VehicleLink& link : links) {
+        put_varint(bytes, static_cast<std::uint64_t>(link.kind));
+        put_varint(bytes, static_cast<std::uint64_t>(link.vehicle));
+        put_varint(bytes, plus_one(link.other));
+        put_varint(bytes, plus_one(link.lane));
+    }
 }
 
 void FrameEncoder::append_columns(std::string& bytes) {

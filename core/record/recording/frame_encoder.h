@@ -79,11 +79,13 @@ private:
     void encode_exits();
     void encode_causes(const Snapshot& snapshot);
     void update_waits(const Snapshot& snapshot);
+    static void append_links(const std::vector<VehicleLink>& links, std::string& bytes);
     void encode_reason(int seat, const Reason& reason);
     void append_columns(std::string& bytes);
     void append_codes(std::string& bytes);
 
     std::int64_t watch_ticks_;
+    bool has_links_;
     FrameGrid grid_;
     std::vector<Seat> seats_;
     std::vector<int> free_seats_;  // seats without a vehicle; the next seat to assign is at the back

@@ -18,6 +18,8 @@
 //                 vehicles with a new lane or next lane: n, then n times seat, lane, next lane + 1
 //                 vehicles with a new delay cause: n, then n times seat, cause, vehicle waited for + 1; the cause
 //                   applies while the vehicle is stopped (below 0.1 m/s), until another cause follows
+//                 links between vehicles: n, then n times kind, vehicle, other vehicle + 1, lane + 1; only if the
+//                   header has `links`; they are those of this frame alone
 //                 number of vehicles that entered the network since the previous frame, then number that exited it
 //                 number of seats; all numbers up to here are varints
 //                 one bit per seat; a seat without a set bit is empty, or its vehicle stays at rest

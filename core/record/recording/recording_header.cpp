@@ -9,6 +9,7 @@
 #include "base/input_error.h"
 #include "base/version.h"
 #include "record/recording/recording_format.h"
+#include "record/recording/vehicle_links.h"
 #include "sim/state/delay_log.h"
 
 namespace stopline {
@@ -59,6 +60,7 @@ RecordedRun run_of(const nlohmann::json& json) {
     run.grid.advance_q12 = json.at("advance_q12");
     run.policies = json.at("policies");
     run.causes = json.at("causes");
+    run.links = json.value("links", std::vector<std::string>{});
     run.signal_groups = json.at("signal_groups");
     for (const nlohmann::json& lane : json.at("lanes")) {
         run.lanes.push_back(
@@ -106,6 +108,7 @@ std::string recording_header(const Model& model, const RunOrigin& origin, const 
               {"lane_width_m", origin.lane_width_m},
               {"lanes", Json::array()},
               {"entries", model.graph.entries}};
+    for (const LinkKind* kind : link_kinds_of(model)) json["links"].push_back(kind->name);
     for (const GapPolicy& policy : model.policies) json["policies"].push_back(policy.settings.name);
     for (const Lane& lane : model.graph.lanes) json["lanes"].push_back(lane_json(lane, !model.demand.trips.empty()));
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -3,6 +3,7 @@
 //     program, version, command, scenario, title, scenario_hash, seed, population, fidelity
 //     step_s, frame_s, first_frame_s, position_unit_m, speed_unit_mps, advance_q12 (see expected_advance)
 //     policies: [name], causes: [name], signal_groups: number, lane_width_m
+//     links: [name of a kind of links between vehicles], only if links can occur (vehicle_links.h)
 //     lanes: [{name, length_m, limit_mps, next: [lane], shape: [x, y, ...], shape_start_m, shape_scale unless it is 1,
 //              stop_line_m and signal_group if the lane has them, turn and origin if the lane is a connection}]
 //     entries: [lane where vehicles enter the network]
@@ -64,6 +65,7 @@ struct RecordedRun {
     std::vector<RecordedLane> lanes;
     std::vector<std::string> policies;
     std::vector<std::string> causes;
+    std::vector<std::string> links;  // kinds of links between vehicles
     int signal_groups = 0;
 };
 // Parses the header. Throws InputError if a value is missing or out of range.

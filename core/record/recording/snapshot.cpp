@@ -46,7 +46,9 @@ void copy_stopped(const DelayWatch& watch, std::vector<Snapshot::StoppedVehicle>
 }  // namespace
 
 SnapshotTaker::SnapshotTaker(const Model& model, const FrameGrid& grid)
-    : positions_per_m_(1.0 / grid.position_unit_m), lanes_(model.graph.lanes.size()) {
+    : positions_per_m_(1.0 / grid.position_unit_m),
+      link_kinds_(link_kinds_of(model)),
+      lanes_(model.graph.lanes.size()) {
     for (const Lane& lane : model.graph.lanes) {
         const double line_m = lane.signal_group >= 0 ? lane.stop_line_m : lane.length_m;
         stop_line_.push_back(code_of(line_m, positions_per_m_));
@@ -78,6 +80,9 @@ void SnapshotTaker::take(const State& state, bool with_stopped, Snapshot& snapsh
         motion += slots.count;
     }
     if (with_stopped) copy_stopped(state.congestion.watch, snapshot.stopped);
+    snapshot.links.clear();
+    for (std::size_t k = 0; k < link_kinds_.size(); ++k)
+        link_kinds_[k]->add(state, static_cast<int>(k), snapshot.links);
 }
 
 // Copies the range of slots of each lane (a slot is the index of a vehicle in the arrays of the simulation) and returns

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "record/recording/recording_header.h"
+#include "record/recording/vehicle_links.h"
 #include "sim/state/model.h"
 #include "sim/state/state.h"
 
@@ -55,6 +56,7 @@ struct Snapshot {
     // lane.
     std::vector<std::uint32_t> motion;
     std::vector<StoppedVehicle> stopped;  // vehicles that were stopped at the latest update of the delay causes
+    std::vector<VehicleLink> links;
 };
 
 constexpr std::uint32_t position_of(std::uint32_t motion) { return motion & 0xFFFFU; }
@@ -77,6 +79,7 @@ private:
                               Snapshot& snapshot) const;
 
     double positions_per_m_;
+    std::vector<const LinkKind*> link_kinds_;
     std::vector<std::uint32_t> stop_line_;  // [lane] stop line, or lane end if there is no stop line; position units
     std::vector<Snapshot::Slots> lanes_;    // [lane] slots in the previous snapshot
     std::vector<int> vehicle_in_slot_;      // [slot] vehicle in the slot in the previous snapshot; -1: none
