@@ -45,6 +45,7 @@ struct Recorded {
     std::vector<VehicleStates> frames;
     std::vector<std::vector<Light>> lights;
     std::vector<std::map<int, DelayCause>> causes;  // delay causes of stopped vehicles, by vehicle id
+    std::vector<std::vector<VehicleLink>> links;
     std::uint64_t hash = 0;
     RecordingSize size;
 };
@@ -73,6 +74,9 @@ Recorded record_run(const Scenario& scenario, const fs::path& file, const Record
         for (int group = 0; group < model.signals.groups(); ++group) {
             result.lights.back().push_back(model.signals.programme(group).light(state.tick));
         }
+        result.links.emplace_back();
+        const std::vector<const LinkKind*> kinds = link_kinds_of(model);
+        for (std::size_t k = 0; k < kinds.size(); ++k) kinds[k]->add(state, static_cast<int>(k), result.links.back());
         result.causes.emplace_back();
         for (const int slot : state.congestion.watch.stopped_slots) {
             const auto k = static_cast<std::size_t>(slot);
@@ -104,16 +108,16 @@ void expect_equal_frame(const RecordedRun& run, const FrameDecoder& decoder, con
         EXPECT_EQ(read.cause, static_cast<int>(expected));
     }
     EXPECT_EQ(present, states.size()) << "frame " << frame;
+    EXPECT_EQ(decoder.links(), recorded.links[frame]) << "frame " << frame;
     for (std::size_t group = 0; group < decoder.lights().size(); ++group) {
         EXPECT_EQ(decoder.lights()[group], static_cast<std::uint8_t>(recorded.lights[frame][group]));
     }
 }
 
-void expect_round_trip(const std::string& fidelity, const RecordingWindow& window) {
+void expect_round_trip_of(const Scenario& scenario, const RecordingWindow& window, Recorded& recorded) {
     const TemporaryFolder folder;
     const fs::path file = folder.path() / "run.rec";
-    const Scenario scenario = small_grid(fidelity);
-    const Recorded recorded = record_run(scenario, file, window);
+    recorded = record_run(scenario, file, window);
     EXPECT_EQ(recorded.hash, run_network(scenario, 2).state_hash) << "the recording changes the run";
     RecordingReader reader(file);
     EXPECT_EQ(reader.run().origin.command, "again");
@@ -138,8 +142,34 @@ void expect_round_trip(const std::string& fidelity, const RecordingWindow& windo
     EXPECT_LT(recorded.size.bytes_per_state(), 4.0);
 }
 
+void expect_round_trip(const std::string& fidelity, const RecordingWindow& window) {
+    Recorded recorded;
+    expect_round_trip_of(small_grid(fidelity), window, recorded);
+}
+
 TEST(Recording, ReadsBackAMesoscaleRun) { expect_round_trip("meso", {}); }
 TEST(Recording, ReadsBackEveryStep) { expect_round_trip("meso", {0.1, 30.0, 150.0}); }
+
+// Cooperative clearing refuses vehicles, which wait for the last vehicle on their exit lane.
+TEST(Recording, ReadsBackLinks) {
+    Scenario scenario = small_grid("meso");
+    scenario.rules.clearing = "cooperative";
+    Recorded recorded;
+    expect_round_trip_of(scenario, {}, recorded);
+    std::size_t refusals = 0;
+    for (std::size_t frame = 0; frame < recorded.frames.size(); ++frame) {
+        for (const VehicleLink& link : recorded.links[frame]) {
+            EXPECT_TRUE(recorded.frames[frame].contains(link.vehicle));
+            EXPECT_GE(link.lane, 0);
+            if (link.other >= 0) {
+                EXPECT_EQ(recorded.frames[frame].at(link.other).lane, link.lane);
+            }
+            ++refusals;
+        }
+    }
+    EXPECT_GT(refusals, 10u);
+}
+
 TEST(Recording, ReadsBackRareFrames) { expect_round_trip("meso", {7.0, 0.0, 238.0}); }
 TEST(Recording, SlowReadsBackAFullDynamicsRun) { expect_round_trip("full", {0.5, 60.0, 120.0}); }
 

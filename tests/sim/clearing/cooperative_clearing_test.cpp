@@ -231,8 +231,8 @@ TEST(SlowClearingChannel, AnAdmittedVehicleNeverStopsInAConflictAreaInFullDynami
     EXPECT_GT(outcome.refused, 30);
 }
 
-// A vehicle without a message of the last second falls back to the keep-clear rule. With one message a second and a loss
-// of 50 %, this happens often. With a range of 2 m, a vehicle can only be refused because vehicles of its own lane have
+// A vehicle without a message of the last second falls back to the keep-clear rule. With one message a second and a
+// loss of 50 %, this happens often. With a range of 2 m, a vehicle can only be refused because vehicles of its own lane have
 // booked an exit lane that is still empty.
 TEST(ClearingChannel, WithoutRecentMessagesTheKeepClearRuleApplies) {
     const Outcome rare =
