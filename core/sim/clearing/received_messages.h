@@ -1,7 +1,7 @@
 // Cooperative clearing over a V2V channel: the messages of other vehicles that a vehicle has received.
 //
-// Every V2V message carries the announcement of the sender's lane and the place that the sender has booked. A message
-// is delayed and lost like any other message of the same sender. The vehicles of one lane are close to each other, so no
+// Every V2V message carries the announcement of the sender's lane and the place that the sender has booked. It is
+// delayed and lost like any other message of the same sender. The vehicles of one lane are close to each other, so no
 // loss is assumed between them when they make their joint announcement. Claims are not lost either: they change the
 // order of the vehicles, but not whether a place is free.
 #pragma once

@@ -232,8 +232,8 @@ TEST(SlowClearingChannel, AnAdmittedVehicleNeverStopsInAConflictAreaInFullDynami
 }
 
 // A vehicle without a message of the last second falls back to the keep-clear rule. With one message a second and a
-// loss of 50 %, this happens often. With a range of 2 m, a vehicle can only be refused because vehicles of its own lane have
-// booked an exit lane that is still empty.
+// loss of 50 %, this happens often. With a range of 2 m, a vehicle can only be refused because vehicles of its own lane
+// have booked an exit lane that is still empty.
 TEST(ClearingChannel, WithoutRecentMessagesTheKeepClearRuleApplies) {
     const Outcome rare =
         run(small_grid_with_channel("meso", {"channel=bernoulli", "loss=50 %", "interval=1 s"}), 800.0);
