@@ -88,8 +88,10 @@ struct Vehicle {
 
     // Lane changes.
     std::int64_t change_tick = -1'000'000;  // step of the latest lane change
-    double remembered_mps = 0.0;            // highest recent speed
-    double left_gain_mps = 0.0;             // speed that the left lane would have gained
+    // Step in which the vehicle, almost at rest, latest let another vehicle in for the route of that vehicle.
+    std::int64_t let_in_tick = -1'000'000;
+    double remembered_mps = 0.0;  // highest recent speed
+    double left_gain_mps = 0.0;   // speed that the left lane would have gained
     double right_gain_mps = 0.0;
 
     // Human drivers only.

@@ -83,7 +83,8 @@ private:
     // Returns the vehicle on lane `other` that opens a gap for `me`. It is the first vehicle behind `me` that can brake
     // to the speed of `me` with GapAlignment::kDeceleration_mps2 and still has the gap that `me` requires at rest with
     // the highest urgency. If both vehicles are almost at rest, the gap cannot grow any more. So it must then suffice
-    // for the present urgency of `me`. The slot is -1 if there is no such vehicle or if gap opening is off.
+    // for the present urgency of `me`, and the vehicle must not have let another vehicle in before. The slot is -1 if
+    // there is no such vehicle or if gap opening is off.
     Neighbour gap_opener(int other, const Neighbour& follower, const LaneChangeRequest& me, double urgency) const {
         // Number of vehicles checked. Vehicles further upstream are still too far away to open a gap for `me`.
         constexpr int kMaxSearched = 5;
@@ -97,11 +98,18 @@ private:
             const int policy = v_.policy[at(slot)];
             if (model_.driver_of(policy).lane_change.gap_opening != "on") continue;
             const bool stands = me.speed_mps < kMinSpeed_mps && v_.speed_mps[at(slot)] < kMinSpeed_mps;
+            if (stands && has_let_in(slot)) continue;
             const double share = urgent_share(model_.driver_of(me.policy).lane_change, stands ? urgency : 1.0);
             const double needed_m = required_gap_m(model_, policy, 0.0, 0.0, share);
             if (gap_m >= braking_m + needed_m) return {slot, gap_m, v_.speed_mps[at(slot)], policy};
         }
         return {};
+    }
+
+    // Returns true if a queued vehicle has already let another vehicle in on this approach. The vehicles of two lanes
+    // therefore take turns. Otherwise a queue could wait without end for vehicles that change to its lane.
+    bool has_let_in(int slot) const {
+        return v_.lane_memory[at(slot)].let_in_tick > v_.record[at(slot)].junction_entry_tick;
     }
 
     // Returns the target speed of a vehicle that opens a gap for `me`.

@@ -6,6 +6,7 @@
 
 #include "base/containers/index.h"
 #include "base/simd/arithmetic.h"
+#include "base/speed_thresholds.h"
 #include "sim/lane_change/preferred_lane.h"
 #include "sim/lane_change/route_choice.h"
 #include "sim/perception/lane_gaps.h"
@@ -308,6 +309,9 @@ private:
         const int slot = move_to_lane(model_, state_, me_.lane, from, other, there.index,
                                       adjacent_position_m(state_, me_.lane, me_.front_m, other));
         v.lane_memory[at(slot)].change_tick = static_cast<int>(state_.tick);
+        const bool has_follower = slot < state_.blocks[at(other)].last();
+        if (for_route && has_follower && v.speed_mps[at(slot + 1)] < kCrawlingSpeed_mps)
+            v.lane_memory[at(slot + 1)].let_in_tick = static_cast<int>(state_.tick);
         const auto way_back_mps = static_cast<float>((1.0 - kReturnFactor) * lane_change().gain_mps);
         const bool to_the_right = other == state_.plan.adjacent(me_.lane).right;
         v.lane_memory[at(slot)].left_gain_mps = to_the_right ? way_back_mps : 0.0F;

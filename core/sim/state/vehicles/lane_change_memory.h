@@ -9,7 +9,10 @@ namespace stopline {
 
 struct LaneChangeMemory {
     int change_tick = -1'000'000;  // tick of the most recent lane change
-    float remembered_mps = 0.0F;   // highest recent speed; falls gradually while the vehicle drives more slowly
+    // Tick of the most recent mandatory lane change of another vehicle to the place directly ahead of this vehicle.
+    // Only changes during which this vehicle was almost at rest count.
+    int let_in_tick = -1'000'000;
+    float remembered_mps = 0.0F;  // highest recent speed; falls gradually while the vehicle drives more slowly
     // Speed that the vehicle would recently have gained on the left or right lane: the gain in acceleration, summed
     // over time. Older gains fade. The vehicle may change when the sum reaches LaneChangeSettings::gain_mps. Below 0:
     // the vehicle has just left that lane.
