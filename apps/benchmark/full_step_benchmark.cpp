@@ -1,11 +1,14 @@
 #include "benchmark/full_step_benchmark.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <utility>
+#include <string>
+#include <tuple>
+#include <vector>
 
 #include <benchmark/benchmark.h>
 
@@ -26,8 +29,21 @@ constexpr double kDriving_s = 10.0;  // from the start of green to the warm-up s
 constexpr int kWarmUpSteps = 10;
 constexpr int kSteps = 100;  // number of measured steps, 1 s in total; during them no vehicle leaves the network
 
-Model queue_model(int vehicles) {
-    Scenario scenario = load_scenario(scenario_directory() / "single_light.yaml");
+// A V2V channel. `v2v`: value of the field driver.v2v; empty: the default channel.
+struct RadioCase {
+    const char* name;
+    const char* v2v;
+};
+constexpr RadioCase kDefaultRadio{"", ""};
+// With the channel `interval`, no message is lost, but vehicles send only once in an interval.
+constexpr std::array kRadioCases{RadioCase{"interval", "{interval: 100 ms}"},
+                                 RadioCase{"bernoulli", "{channel: bernoulli, loss: 10 %}"},
+                                 RadioCase{"gilbert", "{channel: gilbert, loss: 10 %, burst: 4}"}};
+
+Model queue_model(int vehicles, const RadioCase& radio) {
+    std::vector<std::string> overrides;
+    if (*radio.v2v != 0) overrides.push_back(std::string("driver.v2v=") + radio.v2v);
+    Scenario scenario = load_scenario(scenario_directory() / "single_light.yaml", overrides);
     scenario.network.approach.lanes = std::max(1, vehicles / kVehiclesPerLane);
     scenario.network.approach.length_m = 800.0;
     scenario.network.approach.exit_length_m = 2000.0;
@@ -38,9 +54,11 @@ Model queue_model(int vehicles) {
     return model;
 }
 
-// A simulation of moving platoons. There is one for each combination of vehicle count and kernels (batch or scalar).
+// A simulation of moving platoons. There is one for each combination of vehicle count, kernels (batch or scalar) and
+// channel.
 struct DrivingPlatoons {
-    explicit DrivingPlatoons(int vehicles, bool scalar) : model(queue_model(vehicles)), simulation(model) {
+    DrivingPlatoons(int vehicles, bool scalar, const RadioCase& radio)
+        : model(queue_model(vehicles, radio)), simulation(model) {
         simulation.run_until(kGreen_s + kDriving_s);
         model.scalar_kernels = scalar;
     }
@@ -48,17 +66,17 @@ struct DrivingPlatoons {
     Simulation simulation;
 };
 
-const DrivingPlatoons& driving_platoons(int vehicles, bool scalar) {
-    static std::map<std::pair<int, bool>, std::unique_ptr<DrivingPlatoons>> by_size;
-    std::unique_ptr<DrivingPlatoons>& platoons = by_size[{vehicles, scalar}];
-    if (!platoons) platoons = std::make_unique<DrivingPlatoons>(vehicles, scalar);
+const DrivingPlatoons& driving_platoons(int vehicles, bool scalar, const RadioCase& radio) {
+    static std::map<std::tuple<int, bool, std::string>, std::unique_ptr<DrivingPlatoons>> by_case;
+    std::unique_ptr<DrivingPlatoons>& platoons = by_case[{vehicles, scalar, radio.name}];
+    if (!platoons) platoons = std::make_unique<DrivingPlatoons>(vehicles, scalar, radio);
     return *platoons;
 }
 
 // Measures the same second of simulated time in every iteration. The measured time includes neither the copying of the
 // simulation nor the warm-up steps.
-void full_dynamics(benchmark::State& state, bool scalar) {
-    const DrivingPlatoons& initial = driving_platoons(static_cast<int>(state.range(0)), scalar);
+void full_dynamics(benchmark::State& state, bool scalar, const RadioCase& radio) {
+    const DrivingPlatoons& initial = driving_platoons(static_cast<int>(state.range(0)), scalar, radio);
     std::int64_t updates = 0;
     for (auto iteration : state) {
         if (interrupted()) return state.SkipWithError("interrupted");
@@ -73,9 +91,9 @@ void full_dynamics(benchmark::State& state, bool scalar) {
     set_cost(state, updates);
 }
 
-void add(const char* kernels, int vehicles, int iterations) {
-    const bool scalar = std::string(kernels) == kScalar;
-    benchmark::RegisterBenchmark(benchmark_name(kernels).c_str(), full_dynamics, scalar)
+void add(const std::string& kernels, int vehicles, int iterations, const RadioCase& radio = kDefaultRadio) {
+    const bool scalar = kernels == kScalar;
+    benchmark::RegisterBenchmark(benchmark_name(kernels).c_str(), full_dynamics, scalar, radio)
         ->Unit(benchmark::kMicrosecond)
         ->UseManualTime()
         ->Repetitions(7)
@@ -99,6 +117,11 @@ void add_full_step_benchmarks() {
     add(kBatch, 1600, 8);
     add(kBatch, 16000, 1);
     add(kScalar, 160, 20);
+    for (const RadioCase& radio : kRadioCases) {
+        add(radio.name, 160, 40, radio);
+        add(radio.name, 1600, 8, radio);
+        add(radio.name, 16000, 1, radio);
+    }
 }
 
 }  // namespace stopline
