@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdint>
+#include <ctime>
 #include <map>
 #include <memory>
 #include <string>
@@ -73,6 +73,14 @@ const DrivingPlatoons& driving_platoons(int vehicles, bool scalar, const RadioCa
     return *platoons;
 }
 
+// Returns the time that the processor has spent on this program. Unlike the elapsed time, it does not grow while other
+// programs use the processor.
+double processor_time_s() {
+    std::timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 // Measures the same second of simulated time in every iteration. The measured time includes neither the copying of the
 // simulation nor the warm-up steps.
 void full_dynamics(benchmark::State& state, bool scalar, const RadioCase& radio) {
@@ -83,9 +91,9 @@ void full_dynamics(benchmark::State& state, bool scalar, const RadioCase& radio)
         Simulation simulation = initial.simulation;
         for (int step = 0; step < kWarmUpSteps; ++step) simulation.step();
         const std::int64_t updates_before = simulation.state().records.updates;
-        const auto start = std::chrono::steady_clock::now();
+        const double start_s = processor_time_s();
         for (int step = 0; step < kSteps; ++step) simulation.step();
-        state.SetIterationTime(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+        state.SetIterationTime(processor_time_s() - start_s);
         updates += simulation.state().records.updates - updates_before;
     }
     set_cost(state, updates);
