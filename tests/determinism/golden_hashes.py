@@ -91,6 +91,17 @@ RUNS = [
     Run("first_steps_electric", "first_steps", {"vehicle": "electric_100kw"}),
     Run("first_steps_own_laws", "first_steps", OWN_LAWS),
     Run("first_steps_own_laws_meso", "first_steps", {**OWN_LAWS, **MESO}),
+    # A channel with bursts of losses, delays with jitter, and platoons with a leader. The state hash contains the driving
+    # modes.
+    Run("light_full_radio", "single_light",
+        {**SHORT_LIGHT, "populations": "[CDG, CTG-Ref]",
+         "driver.v2v": "{channel: gilbert, loss: 20 %, burst: 5, jitter: 30 ms, topology: predecessor_and_leader}"}),
+    Run("grid_full_radio", "grid",
+        {**SMALL_GRID, **FULL, "duration": "240 s", "measure.window": "120 s", **population("CDG"),
+         "driver.v2v": "{channel: delivery_over_distance, delivery: cv2x_2_subchannels}"}),
+    Run("grid_full_radio", "grid",
+        {**SMALL_GRID, **FULL, "duration": "240 s", "measure.window": "120 s", **population("CDG"),
+         "driver.v2v": "{channel: delivery_over_distance, delivery: cv2x_2_subchannels}"}, threads=2),
     Run("first_steps_diesel", "first_steps", {"vehicle": "diesel_eu4_103kw"}),
     Run("intersection", "intersection", {**QUICK_CYCLES, "signal.green": "10 s"}),
     Run("intersection_turns", "intersection", {**QUICK_CYCLES, "demand.left": "15 %", "demand.right": "10 %"}),
