@@ -33,6 +33,8 @@ namespace stopline {
 namespace {
 
 constexpr const char* kAllManoeuvres = "all";
+constexpr const char* kDefaultDelays = "20 ms, 60 ms, 100 ms, 150 ms, 200 ms, 300 ms";
+constexpr const char* kDefaultTimeGaps = "0.2 s, 0.3 s, 0.4 s, 0.5 s, 0.6 s, 0.7 s, 0.8 s, 1 s, 1.2 s, 1.4 s";
 
 struct StringsCliOptions {
     CommonOptions common;
@@ -45,8 +47,8 @@ struct StringsCliOptions {
     std::string deceleration = "6 m/s2";
     std::vector<std::string> frequencies;
     bool sweep = false;
-    std::string delays = "20 ms, 60 ms, 100 ms, 150 ms, 200 ms, 300 ms";
-    std::string time_gaps = "0.2 s, 0.3 s, 0.4 s, 0.5 s, 0.6 s, 0.7 s, 0.8 s, 1 s, 1.2 s, 1.4 s";
+    std::string delays;     // empty: kDefaultDelays
+    std::string time_gaps;  // empty: kDefaultTimeGaps
     bool no_figures = false;
 };
 
@@ -81,8 +83,10 @@ void declare(Options& app, StringsCliOptions& options) {
     app.add_flag(
         "--sweep", options.sweep,
         "Vary the V2V delay and the time gap of the first population, and find the border of string stability");
-    app.add("--delays", options.delays, "With --sweep: V2V delays").type_name("LIST").show_default();
-    app.add("--time-gaps", options.time_gaps, "With --sweep: time gaps").type_name("LIST").show_default();
+    app.add("--delays", options.delays, fmt::format("With --sweep: V2V delays (default: {})", kDefaultDelays))
+        .type_name("LIST");
+    app.add("--time-gaps", options.time_gaps, fmt::format("With --sweep: time gaps (default: {})", kDefaultTimeGaps))
+        .type_name("LIST");
     app.add_flag("--no-figures", options.no_figures, "Do not draw figures");
     add_common_options(app, options.common, "Folder for the results (default: out/strings)");
     add_set_option(app, options.common);
@@ -127,8 +131,9 @@ double quantity(const std::string& option, const std::string& text, const char* 
     const ParsedQuantity parsed = parse_quantity(text, expected);
     if (!parsed.problem.empty()) throw InputError(fmt::format("{}: value '{}' {}", option, text, parsed.problem));
     if (parsed.si < to_si(low, expected) || parsed.si > to_si(high, expected)) {
-        throw InputError(
-            fmt::format("{}: value '{}' is not allowed; allowed: {:g} {} to {:g} {}", option, text, low, in, high, in));
+        const std::string with_unit = *in == 0 ? "" : std::string(" ") + in;
+        throw InputError(fmt::format("{}: value '{}' is not allowed; allowed: {:g}{} to {:g}{}", option, text, low,
+                                     with_unit, high, with_unit));
     }
     return parsed.si;
 }
@@ -222,8 +227,12 @@ void write_results(const StringsCliOptions& options, const Scenario& scenario, c
 }
 
 ExitCode run_sweep(const StringsCliOptions& options, const Scenario& scenario, StringOptions strings) {
-    const StringSweepAxes axes{quantities("--delays", options.delays, "ms", 0.0, 2000.0),
-                               quantities("--time-gaps", options.time_gaps, "s", 0.05, 10.0)};
+    // A message cannot arrive in the step in which it is sent.
+    const double shortest_ms = 1e3 * scenario.tick_s();
+    const std::string delays = options.delays.empty() ? kDefaultDelays : options.delays;
+    const std::string time_gaps = options.time_gaps.empty() ? kDefaultTimeGaps : options.time_gaps;
+    const StringSweepAxes axes{quantities("--delays", delays, "ms", shortest_ms, 2000.0),
+                               quantities("--time-gaps", time_gaps, "s", 0.05, 10.0)};
     const StringSweep sweep = [&] {
         ProgressBar bar("sweep");
         strings.on_progress = [&bar](double share) { return bar.update(share); };
@@ -266,6 +275,10 @@ ExitCode run(const StringsCliOptions& options) {
     choose_populations(options.populations, scenario);
     check_platoon_scenario(scenario);
     const StringOptions strings = string_options(options, scenario);
+    if (!options.sweep && !options.delays.empty()) throw InputError("--delays has an effect only with --sweep; add it");
+    if (!options.sweep && !options.time_gaps.empty()) {
+        throw InputError("--time-gaps has an effect only with --sweep; add it");
+    }
     prepare_folder(options.common.output.empty() ? "out/strings" : options.common.output);
     return options.sweep ? run_sweep(options, scenario, strings) : run_report(options, scenario, strings);
 }

@@ -80,8 +80,6 @@ void add_detectors(const NetworkKind& kind, const Scenario& scenario, Model& mod
 // Prepares the arrays for an active V2V channel, and sets the length of platoons.
 void add_v2v(const DriverSettings& driver, Model& model) {
     V2vPlan& plan = model.v2v_plan;
-    model.v2v.rows = std::max(model.v2v.rows, plan.rows());
-    if (plan.uses_platoon_leader) model.radar.rows = std::max(model.radar.rows, plan.rows());
     plan.platoon_time_gap_s = driver.platoon.time_gap_s;
     double lag_s = 0.0;
     for (const PowertrainTables& type : model.vehicles) lag_s = std::max(lag_s, type.brake_lag_s);

@@ -17,10 +17,13 @@ namespace stopline {
 
 // A message from one vehicle to another one.
 struct V2vMessage {
+    enum class Result : std::uint8_t { unknown, lost, delivered };
     std::uint64_t link_key = 0;  // random key of the sender and the receiver, see link_key()
     std::int64_t number = 0;     // the sender numbers its messages; every receiver gets the same number
     double distance_m = 0.0;     // from the receiver to the sender when the message arrives
     double density_vpkm = 0.0;   // vehicles per km of road around the link; only if the channel reads it
+    // Result of the message with the previous number on this link. A receiver that does not know it leaves `unknown`.
+    Result previous = Result::unknown;
 };
 
 struct V2vChannel {

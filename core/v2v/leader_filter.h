@@ -8,6 +8,8 @@
 // those that the filter reaches after a few steps, so a vehicle stores no covariances.
 #pragma once
 
+#include "base/simd/arithmetic.h"
+
 namespace stopline {
 
 struct LeaderFilter {
@@ -18,21 +20,24 @@ struct LeaderFilter {
 };
 LeaderFilter make_leader_filter(double step_s);
 
-struct LeaderEstimate {
-    float speed_mps = 0.0F;
-    float acceleration_mps2 = 0.0F;
+// The number type D is double or Single for one vehicle, or Batch for several ones.
+template <class D>
+struct LeaderEstimateOf {
+    D speed_mps;
+    D acceleration_mps2;
 };
 
 // Advances the estimate by one step, to the time of a new measurement of the leader's speed.
-inline void update_estimate(const LeaderFilter& filter, double measured_mps, LeaderEstimate& estimate) {
+template <class D>
+STOPLINE_INLINE void update_estimate(const LeaderFilter& filter, const D& measured_mps, LeaderEstimateOf<D>& estimate) {
     constexpr double kTiny_mps2 = 1e-6;  // smaller values would become subnormal, which is slow
-    const double a = estimate.acceleration_mps2;
-    const double predicted_mps = static_cast<double>(estimate.speed_mps) + filter.speed_share * a;
-    const double error_mps = measured_mps - predicted_mps;
-    const double corrected_mps2 = filter.decay * a + filter.acceleration_gain_1ps * error_mps;
-    estimate.speed_mps = static_cast<float>(predicted_mps + filter.speed_gain * error_mps);
-    estimate.acceleration_mps2 =
-        corrected_mps2 < kTiny_mps2 && corrected_mps2 > -kTiny_mps2 ? 0.0F : static_cast<float>(corrected_mps2);
+    const D a = estimate.acceleration_mps2;
+    const D predicted_mps = estimate.speed_mps + filter.speed_share * a;
+    const D error_mps = measured_mps - predicted_mps;
+    const D corrected_mps2 = filter.decay * a + filter.acceleration_gain_1ps * error_mps;
+    const D is_tiny = STOPLINE_FLAG(D, corrected_mps2 < kTiny_mps2) * STOPLINE_FLAG(D, corrected_mps2 > -kTiny_mps2);
+    estimate.speed_mps = predicted_mps + filter.speed_gain * error_mps;
+    estimate.acceleration_mps2 = choose(is_tiny, splat<D>(0.0), corrected_mps2);
 }
 
 }  // namespace stopline

@@ -50,6 +50,9 @@ V2vPlan make_v2v_plan(const V2vSettings& settings, bool active, double delay_s, 
     for (std::size_t mode = 0; mode < kLongestAge_s.size(); ++mode) {
         plan.longest_age_ticks[mode] = ticks_of(kLongestAge_s[mode], step_s);
     }
+    for (int age = 0; age <= plan.longest_age_ticks[static_cast<std::size_t>(V2vMode::old_messages)]; ++age) {
+        plan.time_gap_of_age_s.push_back(stable_time_gap_s(age * step_s));
+    }
     plan.hysteresis_ticks = ticks_of(kHysteresis_s, step_s);
     plan.filter = make_leader_filter(step_s);
     plan.is_lossless = loses_nothing(*plan.channel, settings);
@@ -68,6 +71,11 @@ int jitter_ticks(const V2vPlan& plan, std::uint64_t link, std::int64_t number) {
 int first_send_tick(const V2vPlan& plan, int vehicle) {
     const std::uint64_t bits = mix64(plan.key ^ static_cast<std::uint64_t>(vehicle));
     return static_cast<int>(bits % static_cast<std::uint64_t>(plan.interval_ticks));
+}
+
+int next_send_tick(const V2vPlan& plan, int first, int tick) {
+    const int late = ((tick - first) % plan.interval_ticks + plan.interval_ticks) % plan.interval_ticks;
+    return late == 0 ? tick : tick + plan.interval_ticks - late;
 }
 
 double stable_time_gap_s(double age_s) {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
+#include <vector>
 
 #include "v2v/channel.h"
 #include "v2v/fallback.h"
@@ -23,6 +25,7 @@ struct V2vPlan {
     double jitter_ticks = 0.0;  // uniform: largest jitter; exponential: mean jitter
     bool exponential = false;
     std::array<int, kLongestAge_s.size()> longest_age_ticks{};  // [mode] longest age of the newest message
+    std::vector<double> time_gap_of_age_s;  // [age in ticks] stable_time_gap_s(), up to the mode `old_messages`
     int hysteresis_ticks = 0;
     LeaderFilter filter;
     bool is_lossless = false;  // true: the channel loses no message of the leader
@@ -32,8 +35,12 @@ struct V2vPlan {
     double platoon_time_gap_s = 0.0;   // PlatoonSettings::time_gap_s
     int max_platoon = 0;               // largest number of vehicles of a platoon; 0: no limit
 
-    // Number of past steps whose messages must be stored.
-    int rows() const { return delay_ticks + longest_jitter_ticks + 2 * interval_ticks + 2; }
+    // Time in which a message that has arrived is certain to be used, in steps. Vehicles store their messages so long.
+    int stored_ticks() const { return delay_ticks + longest_jitter_ticks + 2 * interval_ticks; }
+    // Number of messages that a vehicle stores: a power of two.
+    int stored_messages() const {
+        return static_cast<int>(std::bit_ceil(static_cast<unsigned>(stored_ticks() / interval_ticks + 2)));
+    }
 };
 
 // Returns true if messages do not simply arrive after the constant delay. `radar_range_m`: messages from beyond the
@@ -55,5 +62,7 @@ int jitter_ticks(const V2vPlan& plan, std::uint64_t link, std::int64_t number);
 // Returns the first tick at which a vehicle sends, less than one interval after tick 0. The vehicle then sends once in
 // each interval.
 int first_send_tick(const V2vPlan& plan, int vehicle);
+// Returns the first tick from `tick` on at which a vehicle sends. `first`: its first_send_tick().
+int next_send_tick(const V2vPlan& plan, int first, int tick);
 
 }  // namespace stopline

@@ -174,6 +174,7 @@ public:
         for (const PrescribedRequest& driven : driven_) {
             const std::size_t message_slot = state().v2v.now + slot(driven.lane, driven.k);
             mutable_state().vehicles.v2v_request_mps2[message_slot] = static_cast<float>(driven.request_mps2);
+            replace_sent_request(static_cast<int>(slot(driven.lane, driven.k)), driven.request_mps2);
         }
         driven_.clear();
         expect_invariants();
@@ -205,6 +206,17 @@ public:
     }
 
 private:
+    // With a V2V channel: replaces the request of the message that a vehicle has sent in the last step, if it has.
+    void replace_sent_request(int message_slot, double request_mps2) {
+        VehicleArrays& v = mutable_state().vehicles;
+        if (!v.has_v2v_channel) return;
+        const V2vPlan& plan = model().v2v_plan;
+        const int sent_tick = v.v2v.send_tick[at(message_slot)] - plan.interval_ticks;
+        if (sent_tick != static_cast<int>(state().tick) - 1) return;
+        const int number = (sent_tick - first_send_tick(plan, v.id[at(message_slot)])) / plan.interval_ticks;
+        v.v2v.sent[v.v2v.index_of(message_slot, number)].request_mps2 = static_cast<float>(request_mps2);
+    }
+
     struct PrescribedRequest {
         int lane, k;
         double request_mps2;

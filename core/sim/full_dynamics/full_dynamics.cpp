@@ -98,6 +98,7 @@ FullTables full_tables(const Model& model) {
     FullTables tables;
     for (const DriverPlan& driver : model.drivers) tables.drivers.push_back(narrowed(driver.tables));
     for (const PowertrainTables& type : model.vehicles) tables.vehicles.push_back(narrowed(type));
+    if (model.v2v_plan.is_active) tables.receive_policies = receive_policies(model);
     return tables;
 }
 
@@ -110,7 +111,9 @@ void step_full(const Model& model, const FullTables& tables, const LaneGroup& la
     evaluate_gap_laws(model, lanes.vehicles, group);
     apply_classes(model, lanes.vehicles, group);
     react_as_humans(model, state, lanes.lanes, group);
-    receive_messages(model, state, lanes.lanes, group, part);
+    if (state.vehicles.has_v2v_channel) {
+        receive_messages(model, kernels, tables.receive_policies, lanes, next, group, state, part);
+    }
     for (std::size_t k = 0; k < tables.drivers.size(); ++k) {
         const int only = tables.drivers.size() == 1 ? -1 : static_cast<int>(k);
         const auto plan = model.drivers[k].is_human ? kernels.plan_human : kernels.plan;
@@ -123,6 +126,7 @@ void step_full(const Model& model, const FullTables& tables, const LaneGroup& la
                       k == 0 ? next : std::span<const int>());
     }
     kernels.scatter(streams, lanes.lanes, group, model.step_s);
+    if (state.vehicles.has_v2v_channel) send_messages(model, kernels, lanes, state, part);
     const std::int64_t count = count_overlaps(state.vehicles, lanes.lanes);
     if (count > 0) record_first_overlap(model, state, part);
     part.violations.overlaps += count;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "sim/full_dynamics/receive_kernels.h"
 #include "sim/state/model.h"
 #include "sim/state/state.h"
 
@@ -14,6 +15,7 @@ namespace stopline {
 struct FullTables {
     std::vector<DriverTablesOf<float>> drivers;       // [driver], as Model::drivers
     std::vector<PowertrainTablesOf<float>> vehicles;  // [vehicle type]
+    std::vector<ReceivePolicy> receive_policies;      // [policy] only with an active V2V channel
 };
 FullTables full_tables(const Model& model);
 

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "driver/acceleration_laws.h"
+#include "sim/full_dynamics/receive_kernels.h"
 #include "sim/state/state.h"
 #include "sim/state/vehicles/full_group.h"
 #include "vehicle/powertrain_tables.h"
@@ -39,6 +40,13 @@ struct FullKernels {
     // and hidden leaders demand of the vehicle (LaneGroup::demands).
     void (*gather)(const FullStreams&, const DelayRows& radar, const DelayRows& v2v, const LaneGroup&, double dt,
                    const FullGroup&);
+    // The receive phase of V2V (receive_messages.h). `list_due` stores the own speeds, and lists the vehicles that have
+    // another leader than in the step before, or for which a message is due. It returns the number of these vehicles.
+    // `receive` updates the driving modes, and writes what the vehicles know about their leaders into the group.
+    // `list_senders` lists the vehicles that send in this step, and returns their number.
+    int (*list_due)(const ReceiveStreams&, Lanes, int tick, const FullGroup&, DueReceiver* due);
+    void (*receive)(const ReceiveStep&, const ReceiveStreams&, Lanes, const FullGroup&, ReceiveResults&);
+    int (*list_senders)(const int* send_tick, Lanes, int tick, DueReceiver* senders);
     // Driver: computes the requested accelerations of the first `vehicles` vehicles of the group. `only`: index of the
     // driver to which the tables belong. Vehicles with other drivers stay unchanged. If `only` is below 0, the tables
     // apply to all vehicles.

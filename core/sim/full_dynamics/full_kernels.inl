@@ -12,6 +12,7 @@
 #include "base/units.h"
 #include "driver/idm.h"
 #include "sim/full_dynamics/full_kernels.h"
+#include "sim/full_dynamics/receive_kernels.inl"
 #include "vehicle/powertrain_step.h"
 
 namespace stopline {
@@ -349,7 +350,7 @@ void scatter(const FullStreams& streams, FullKernels::Lanes lanes, const FullGro
 
 template <class R>
 constexpr FullKernels kernels_of(const char* name) {
-    return {name, gather<R>, plan<R>, plan_human<R>, drive<R>, scatter<R>};
+    return {name, gather<R>, list_due<R>, receive<R>, list_senders<R>, plan<R>, plan_human<R>, drive<R>, scatter<R>};
 }
 
 }  // namespace

@@ -42,11 +42,13 @@ void update_queue(const VehicleArrays& v, const LaneBlock& block, std::int64_t t
 }
 
 // Returns true if the vehicle in `slot` receives the start message that the vehicle ahead of it sends in this step.
-// Without a V2V channel (V2vPlan::channel), it always does.
+// Without a V2V channel (V2vPlan::channel), it always does. `gap_m`: net gap to the sender.
 bool receives_start(const Model& model, const VehicleArrays& v, std::int64_t tick, double gap_m, float density_vpkm,
                     std::size_t slot) {
     const V2vPlan& plan = model.v2v_plan;
-    if (plan.channel == nullptr || plan.channel->is_delivered == nullptr) return true;
+    if (plan.channel == nullptr) return true;
+    if (gap_m > plan.settings.range_m) return false;
+    if (plan.channel->is_delivered == nullptr) return true;
     return plan.channel->is_delivered(plan.settings,
                                       {link_key(plan.key, v.id[slot - 1], v.id[slot]), tick, gap_m, density_vpkm});
 }

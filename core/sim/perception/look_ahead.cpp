@@ -210,15 +210,23 @@ void copy_v2v(const DelayRows& rows, VehicleArrays& v, std::size_t sentinel, std
     }
 }
 
-// Copies the slot of the leader and the place of the leader in its platoon to the sentinel slot of the lane.
-// `ahead`: -1 if there is no leader.
-void copy_platoon(VehicleArrays& v, std::size_t sentinel, std::size_t leader_slot, int ahead) {
-    V2vReceiver& copy = v.receiver[sentinel];
-    const V2vReceiver& leader = v.receiver[leader_slot];
+// Copies the id and the slot of the leader, and the place of the leader in its platoon, to the sentinel slot of the
+// lane. `ahead`: slot of the leader; -1 if there is no leader.
+void copy_platoon(bool has_platoon_leaders, VehicleArrays& v, std::size_t sentinel, std::size_t leader_slot,
+                  int ahead) {
+    V2vReceiver& copy = v.v2v.rest[sentinel];
+    const V2vReceiver& leader = v.v2v.rest[leader_slot];
+    v.id[sentinel] = ahead >= 0 ? v.id[leader_slot] : -1;
     copy.sender_slot = ahead;
     copy.platoon = ahead >= 0 ? leader.platoon : -1;
     copy.platoon_leader_slot = leader.platoon_leader_slot;
     copy.place_in_platoon = leader.place_in_platoon;
+    if (!has_platoon_leaders) return;
+    // The followers of a platoon leader that has just left the lane look for its messages in this slot for one step.
+    for (int k = 0; k < v.v2v.stored_messages; ++k) {
+        v.v2v.sent[v.v2v.index_of(static_cast<int>(sentinel), k)] =
+            v.v2v.sent[v.v2v.index_of(static_cast<int>(leader_slot), k)];
+    }
 }
 
 }  // namespace
@@ -269,7 +277,8 @@ void find_leaders_beyond_lanes(const Model& model, const State& state, VehicleAr
         }
         if (v.has_powertrain()) {
             copy_v2v(state.v2v, v, sentinel, leader_slot, has_leader);
-            if (v.has_v2v_channel) copy_platoon(v, sentinel, leader_slot, ahead.slot);
+            if (v.has_v2v_channel)
+                copy_platoon(model.v2v_plan.uses_platoon_leader, v, sentinel, leader_slot, ahead.slot);
             react_to_hidden_leaders(model, state, lane, hidden, part);
         }
         const int id = has_leader ? v.id[leader_slot] : -1;

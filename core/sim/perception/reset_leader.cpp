@@ -21,7 +21,7 @@ void initialise_sensors(VehicleArrays& v, int slot, bool first) {
     const double gap_m = first ? 1e6 : v.position_m[i - 1] - static_cast<double>(v.length_m[i - 1]) - v.position_m[i];
     v.reset_radar(slot, gap_m, first ? 0.0 : v.speed_mps[i] - v.speed_mps[i - 1]);
     v.reset_v2v(slot);
-    if (v.has_v2v_channel) v.receiver[i] = {};
+    if (v.has_v2v_channel) v.v2v.reset(slot);
 }
 
 }  // namespace stopline

@@ -112,6 +112,7 @@ struct Partition {
     static constexpr int kGroupVehicles = 128;
     std::array<LaneGroup, 2> groups;  // the group that the kernels compute, and the next one
     FullGroupArrays full_group;
+    ReceiveWork receive_work;
     // Mesoscale mode. In moving_blocks a block is not the block of a lane, but a batch of consecutive slots that the
     // kernels move together (MesoKernels::size).
     IndexBuffer moving_blocks;      // blocks to move in this step

@@ -176,9 +176,9 @@ std::uint64_t Simulation::state_hash() const {
             hash.add(v.acceleration_mps2[i]);
             if (v.has_human_drivers) hash.add(v.start_ticks[i]);
             if (v.has_v2v_channel) {
-                hash.add(v.receiver[i].leader.sent_tick);
-                hash.add(static_cast<int>(v.receiver[i].fallback.mode));
-                hash.add(v.receiver[i].fallback.time_gap_s);
+                hash.add(v.v2v.sent_tick[i]);
+                hash.add(v.v2v.mode[i]);
+                hash.add(v.v2v.time_gap_s[i]);
             }
             if (model_.meso) continue;
             for (const float value :

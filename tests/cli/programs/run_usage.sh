@@ -110,6 +110,11 @@ refuses "--speed: value '90 km/h' is not allowed; allowed: 5 km/h to 50 km/h" --
 refuses "--amplitude: value '9 m/s2' is not allowed" -- "$strings" "$scenario" --amplitude "9 m/s2"
 refuses "--frequency: value 'fast'" -- "$strings" "$scenario" --frequency fast
 refuses "--frequency is for swings only" -- "$strings" "$scenario" --frequency 1 --manoeuvre brake
+refuses "--frequency: value '0' is not allowed; allowed: 0.01 to 50" -- "$strings" "$scenario" --frequency 0
+refuses "--delays has an effect only with --sweep" -- "$strings" "$scenario" --delays "20 ms"
+refuses "--time-gaps has an effect only with --sweep" -- "$strings" "$scenario" --time-gaps "1 s"
+refuses "--delays: value '5 ms' is not allowed; allowed: 10 ms to 2000 ms" -- \
+    "$strings" "$scenario" --sweep --population CTG-Ref --delays "5 ms"
 refuses "--sweep needs swings" -- "$strings" "$scenario" --sweep --manoeuvre start
 refuses "--vehicles" -- "$strings" "$scenario" --vehicles 1
 refuses "no population or policy 'CDX'; did you mean 'CDG'?" -- "$strings" "$scenario" --population CDX

@@ -46,7 +46,7 @@ TEST(ReceiveMessages, AnIdealChannelInEveryStepIsTheDefault) {
 
 TEST(ReceiveMessages, NoChannelNeedsNoMemory) {
     Track track(plan_with({}));
-    EXPECT_TRUE(track.state().vehicles.receiver.empty());
+    EXPECT_TRUE(track.state().vehicles.v2v.rest.empty());
     EXPECT_TRUE(track.state().vehicles.own_speed_mps.empty());
 }
 
@@ -60,8 +60,8 @@ TEST(ReceiveMessages, AgesAreThoseOfDelayIntervalAndJitter) {
     while (track.time_s() < 20.0) {
         track.step();
         for (int k = 1; k < 9; ++k) {
-            const int age = static_cast<int>(track.state().tick) - 1 -
-                            track.state().vehicles.receiver[track.slot(0, k)].leader.sent_tick;
+            const int age =
+                static_cast<int>(track.state().tick) - 1 - track.state().vehicles.v2v.sent_tick[track.slot(0, k)];
             youngest = std::min(youngest, age);
             oldest = std::max(oldest, age);
         }
@@ -100,8 +100,8 @@ TEST(ReceiveMessages, AVehicleBehindAHumanDriverUsesAcc) {
     track.place(0, 361.0, kSpeed_mps, 0);
     track.run(60.0);
     const VehicleArrays& v = track.state().vehicles;
-    EXPECT_EQ(v.receiver[track.slot(0, 1)].fallback.mode, V2vMode::acc);
-    EXPECT_LE(v.receiver[track.slot(0, 2)].fallback.mode, V2vMode::old_messages);
+    EXPECT_EQ(v.v2v.mode_of(static_cast<int>(track.slot(0, 1))), V2vMode::acc);
+    EXPECT_LE(v.v2v.mode_of(static_cast<int>(track.slot(0, 2))), V2vMode::old_messages);
     const double speed_mps = track.vehicle(0, 1).speed_mps;
     EXPECT_NEAR(track.vehicle(0, 1).gap_m, 2.95 + 1.5 * speed_mps, 1.0);
 }

@@ -128,8 +128,8 @@ private:
 
     void note_messages() {
         for (int k = 1; k < track_.count(0); ++k) {
-            const V2vReceiver& receiver = track_.state().vehicles.receiver[track_.slot(0, k)];
-            outcome_.old_messages += track_.state().tick - receiver.leader.sent_tick > 30 ? 1 : 0;
+            const int sent_tick = track_.state().vehicles.v2v.sent_tick[track_.slot(0, k)];
+            outcome_.old_messages += track_.state().tick - sent_tick > 30 ? 1 : 0;
         }
     }
 
@@ -139,15 +139,16 @@ private:
             if (follower.gap_m >= outcome_.smallest_gap_m) continue;
             outcome_.smallest_gap_m = follower.gap_m;
             const VehicleView leader = track_.vehicle(0, k - 1);
-            const V2vReceiver& receiver = track_.state().vehicles.receiver[track_.slot(0, k)];
+            const V2vReceivers& received = track_.state().vehicles.v2v;
+            const std::size_t slot = track_.slot(0, k);
             outcome_.report = "trial " + std::to_string(number_) + " vehicle " + std::to_string(k) + " policy " +
                               std::to_string(track_.state().vehicles.policy[track_.slot(0, k)]) + ": " +
                               std::to_string(track_.time_s() - brake_s_) + " s after the braking, gap " +
                               std::to_string(follower.gap_m) + " m, speeds " + std::to_string(leader.speed_mps) + " " +
                               std::to_string(follower.speed_mps) + ", requests " + std::to_string(leader.request_mps2) +
                               " " + std::to_string(follower.request_mps2) + ", mode " +
-                              kV2vModeNames[static_cast<std::size_t>(receiver.fallback.mode)] + ", age " +
-                              std::to_string(track_.state().tick - receiver.leader.sent_tick);
+                              kV2vModeNames[static_cast<std::size_t>(received.mode[slot])] + ", age " +
+                              std::to_string(track_.state().tick - received.sent_tick[slot]);
         }
     }
 

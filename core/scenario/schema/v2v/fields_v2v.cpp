@@ -87,8 +87,13 @@ std::string channel_meaning() {
 
 void check_v2v(const V2vSettings& settings, Checker& check) {
     const V2vChannel& channel = find_v2v_channel(settings.channel);
-    if (const std::string problem = channel.problem == nullptr ? std::string() : channel.problem(settings);
-        !problem.empty()) {
+    const std::string problem = channel.problem == nullptr ? std::string() : channel.problem(settings);
+    // The file that `delivery` names may be missing. An error has then been reported at `delivery` before.
+    const bool has_empty_delivery =
+        channel.reads_density && check.given("delivery") && settings.delivery.curves.empty();
+    if (has_empty_delivery) {
+        check.error("delivery", "has no curves, but the channel needs them");
+    } else if (!problem.empty()) {
         check.error("channel", problem);
     }
     if (settings.jitter_s == 0.0) return;

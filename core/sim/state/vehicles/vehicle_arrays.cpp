@@ -13,7 +13,7 @@ void VehicleArrays::for_each_common(Visit visit) {
     visit(policy), visit(id), visit(next_lane), visit(record), visit(lane_memory), visit(stopped_since),
         visit(standstill_gap_m), visit(type);
     if (has_human_drivers) visit(start_ticks);
-    if (has_v2v_channel) visit(receiver);
+    if (has_v2v_channel) v2v.for_each(visit);
 }
 
 template <class Visit>
@@ -33,6 +33,8 @@ void VehicleArrays::resize(int slot_count, int radar_row_count, int v2v_row_coun
     const auto n = static_cast<std::size_t>(slot_count);
     for_each_common([n](auto& array) { array.assign(n, {}); });
     for_each_powertrain([n](auto& array) { array.assign(n, {}); });
+    if (has_v2v_channel) v2v.sent.assign(n * static_cast<std::size_t>(v2v.stored_messages), {});
+    for (int slot = 0; slot < slot_count && has_v2v_channel; ++slot) v2v.reset(slot);
     // The kernels do their computations for free slots, too, and divide by the lag. The lag of a free slot must
     // therefore not be 0.
     lag_s.assign(n, 1.0F);
@@ -66,6 +68,9 @@ void VehicleArrays::copy(int from, int to) {
     for_each_common(copied);
     if (!has_powertrain()) return;
     for_each_powertrain(copied);
+    for (int k = 0; k < v2v.stored_messages && has_v2v_channel; ++k) {
+        v2v.sent[v2v.index_of(to, k)] = v2v.sent[v2v.index_of(from, k)];
+    }
     for (int r = 0; r < radar_rows; ++r) {
         radar_gap_m[row(r, to)] = radar_gap_m[row(r, from)];
         radar_closing_mps[row(r, to)] = radar_closing_mps[row(r, from)];
@@ -80,14 +85,17 @@ void VehicleArrays::copy(int from, int to) {
 
 void VehicleArrays::move(int from, int count, int to) {
     if (count == 0 || from == to) return;
-    const auto moved = [&](auto& array, int row_index) {
-        const auto first = array.begin() + static_cast<std::ptrdiff_t>(row(row_index, from));
-        const auto target = array.begin() + static_cast<std::ptrdiff_t>(row(row_index, to));
+    const auto moved_numbers = [&](auto& array, std::size_t from_index, std::size_t to_index, int numbers) {
+        const auto first = array.begin() + static_cast<std::ptrdiff_t>(from_index);
+        const auto target = array.begin() + static_cast<std::ptrdiff_t>(to_index);
         if (to < from) {
-            std::copy(first, first + count, target);
+            std::copy(first, first + numbers, target);
         } else {
-            std::copy_backward(first, first + count, target + count);
+            std::copy_backward(first, first + numbers, target + numbers);
         }
+    };
+    const auto moved = [&](auto& array, int row_index) {
+        moved_numbers(array, row(row_index, from), row(row_index, to), count);
     };
     for_each_common([&](auto& array) { moved(array, 0); });
     if (!has_powertrain()) {
@@ -99,6 +107,9 @@ void VehicleArrays::move(int from, int count, int to) {
         return;
     }
     for_each_powertrain([&](auto& array) { moved(array, 0); });
+    if (has_v2v_channel) {
+        moved_numbers(v2v.sent, v2v.index_of(from, 0), v2v.index_of(to, 0), count * v2v.stored_messages);
+    }
     for (int r = 0; r < radar_rows; ++r) moved(radar_gap_m, r), moved(radar_closing_mps, r);
     for (int r = 0; r < radar_rows && stores_own_speed(); ++r) moved(own_speed_mps, r);
     for (int r = 0; r < v2v_rows; ++r) {
@@ -132,6 +143,10 @@ void VehicleArrays::reset_v2v(int slot) {
         v2v_acceleration_mps2[row(r, slot)] = acceleration_mps2[i];
         v2v_request_mps2[row(r, slot)] = request_mps2[i];
         v2v_rate_1ps[row(r, slot)] = 1.0F / lag_s[i];
+    }
+    const auto speed = static_cast<float>(speed_mps[i]);
+    for (int k = 0; k < v2v.stored_messages && has_v2v_channel; ++k) {
+        v2v.sent[v2v.index_of(slot, k)] = {acceleration_mps2[i], request_mps2[i], 1.0F / lag_s[i], speed};
     }
 }
 

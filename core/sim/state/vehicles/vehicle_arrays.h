@@ -67,7 +67,7 @@ struct VehicleArrays {
     // Runs with human drivers only: number of steps since the vehicle ahead began to move (driver/human.h).
     LargeArray<int> start_ticks;
     // Runs with an active V2V channel only (V2vPlan): the messages that the vehicle has received.
-    LargeArray<V2vReceiver> receiver;
+    V2vReceivers v2v;
 
     int slots = 0;
     int radar_rows = 0;  // 0 in the mesoscale mode
