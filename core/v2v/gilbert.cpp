@@ -6,8 +6,8 @@
 // The state needs no memory. One uniform draw u a message drives both states: u < p leads to the bad state from either
 // state, u >= 1 - r leads to the good state from either state, and any other u leaves the state as it is. (This needs
 // p <= 1 - r.) So the state is that of the latest message whose draw decides, and a receiver that asks about a message
-// for the first time goes back to this draw. It goes back by 1 / (p + r) messages in the mean. A receiver that knows the
-// result of the previous message need not go back.
+// for the first time goes back to this draw. It goes back by 1 / (p + r) messages in the mean. A receiver that knows
+// the result of the previous message need not go back.
 #include <array>
 
 #include <fmt/format.h>

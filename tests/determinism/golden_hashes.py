@@ -91,8 +91,8 @@ RUNS = [
     Run("first_steps_electric", "first_steps", {"vehicle": "electric_100kw"}),
     Run("first_steps_own_laws", "first_steps", OWN_LAWS),
     Run("first_steps_own_laws_meso", "first_steps", {**OWN_LAWS, **MESO}),
-    # A channel with bursts of losses, delays with jitter, and platoons with a leader. The state hash contains the driving
-    # modes.
+    # A channel with bursts of losses, delays with jitter, and platoons with a leader. The state hash contains the
+    # driving modes.
     Run("light_full_radio", "single_light",
         {**SHORT_LIGHT, "populations": "[CDG, CTG-Ref]",
          "driver.v2v": "{channel: gilbert, loss: 20 %, burst: 5, jitter: 30 ms, topology: predecessor_and_leader}"}),
