@@ -265,10 +265,10 @@ private:
         }
     }
 
-    // The leader of a car with gearbox brakes harder than prescribed just before it stops, up to the friction limit. The
-    // brake force for a closed clutch also slows down the engine. When the clutch opens at low speed, this part of the
-    // force acts on the car alone, until the brake has followed its new request with its lag (powertrain_step.h). An
-    // electric car has almost no such rotating mass, and keeps the prescribed deceleration.
+    // A leader with gearbox brakes harder than prescribed just before it stops, up to the friction limit. The brake
+    // force for a closed clutch also slows down the engine. When the clutch opens at low speed, this part of the force
+    // acts on the car alone, until the brake has followed its new request with its lag (powertrain_step.h). An electric
+    // car has almost no such rotating mass, and keeps the prescribed deceleration.
     void record_braking() {
         prescribe(-manoeuvre_.deceleration_mps2);
         const double until_s = simulation_.time_s() + longest_s(manoeuvre_, vehicles_, model_.step_s);

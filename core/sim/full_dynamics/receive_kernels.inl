@@ -315,8 +315,8 @@ private:
 constexpr int kListBlock = 16;  // number of slots that are tested at once
 using ListBlock = Vector<std::int32_t, kListBlock>;
 
-// Lists the vehicles of a lane. `is_listed(slot)`: tests a block of slots, and returns -1 for each vehicle that belongs to
-// the list, else 0. `place`: place of the first vehicle in the group. Returns the end of the list.
+// Lists the vehicles of a lane. `is_listed(slot)`: tests a block of slots, and returns -1 for each vehicle that belongs
+// to the list, else 0. `place`: place of the first vehicle in the group. Returns the end of the list.
 template <class IsListed>
 STOPLINE_INLINE DueReceiver* list_of_lane(const LaneStep& slots, int place, int lane, DueReceiver* list,
                                           IsListed is_listed) {

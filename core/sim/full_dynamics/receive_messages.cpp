@@ -329,10 +329,10 @@ private:
     }
 
     // Receives the messages of the platoon leader, and replaces the law for following by that of Rajamani while they
-    // are recent. To replace the law, the desired gap becomes so small that it does not limit the acceleration, and the
-    // law of Rajamani becomes an external demand. All other laws, such as emergency braking, stay as they are. A vehicle
-    // that is too close to its leader keeps the law of its policy. The law of Rajamani would follow the platoon leader's
-    // start even if its own leader still stands.
+    // are recent. To replace the law, the desired gap becomes so small that it does not limit the acceleration, and
+    // the law of Rajamani becomes an external demand. All other laws, such as emergency braking, stay as they are. A
+    // vehicle that is too close to its leader keeps the law of its policy, because the law of Rajamani would follow the
+    // platoon leader's start even if its own leader still stands.
     // Precondition: the spacing policy keeps a constant distance at this speed.
     void follow_platoon_leader(const LaneStep& lane, int slot, int place) const {
         constexpr double kLongestAge_s = 0.15;  // our choice, after the states of PlatoonSAFE

@@ -16,7 +16,8 @@ namespace stopline {
 // Receives the messages of this step. Replaces FullGroup::heard_acceleration, heard_request and heard_rate by the last
 // message that has arrived from the leader, extrapolated to the present. Without a recent message, radar replaces the
 // message and the desired gap grows (v2v/fallback.h). A vehicle at rest does not start on an old message. Only vehicles
-// without human drivers send and receive. `next`: LaneGroup::prefetch_slots of the next group. Precondition: an active channel (VehicleArrays::has_v2v_channel).
+// without human drivers send and receive. `next`: LaneGroup::prefetch_slots of the next group. Precondition: an active
+// channel (VehicleArrays::has_v2v_channel).
 void receive_messages(const Model& model, const FullKernels& kernels, std::span<const ReceivePolicy> policies,
                       const LaneGroup& lanes, std::span<const int> next, const FullGroup& group, State& state,
                       Partition& part);
