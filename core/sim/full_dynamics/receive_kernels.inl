@@ -83,7 +83,6 @@ public:
                                  int k, int count)
         : step_(step), s_(streams), g_(group), i_(i), k_(k) {
         set_policy();
-        time_gap_s_ = splat<R>(0.0);
         if (count < kWidthOf<R>)
             has_radio_ =
                 choose(STOPLINE_FLAG(R, counting_from<R>(0) < static_cast<double>(count)), has_radio_, splat<R>(0.0));
@@ -309,7 +308,8 @@ private:
     R speed_, closing_;
     R seen_;   // estimated acceleration of the leader
     R heard_;  // heard acceleration of the leader
-    R mode_, time_gap_s_;
+    R mode_;
+    R time_gap_s_ = splat<R>(0.0);
 };
 
 constexpr int kListBlock = 16;  // number of slots that are tested at once
