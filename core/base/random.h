@@ -22,7 +22,8 @@ enum class Purpose : std::uint64_t {
     vehicle_type = 5,
     fit_start = 6,
     driver = 7,
-    v2v = 8
+    v2v = 8,
+    courtesy = 9
 };
 
 // Returns the SplitMix64 finaliser of z. `Words` is std::uint64_t or a vector of std::uint64_t.

@@ -95,8 +95,10 @@ struct LaneChangeSettings {
     // Koutsopoulos, Ben-Akiva 2003, "Modeling integrated lane-changing behavior", Transportation Research Record 1857).
     // These 4 m are about 0.3 of the 12 m that a vehicle drives at 50 km/h within the time gap of 0.87 s.
     double urgent_gap_share = 0.3;
-    std::string look_ahead = "on";   // off | on: vehicles also choose lanes for the turn after the next one
-    std::string gap_opening = "on";  // off | on: followers on the target lane open a gap for mandatory changes
+    std::string look_ahead = "on";  // off | on: vehicles also choose lanes for the turn after the next one
+    // off | on | cooperative: whether and how vehicles on the target lane open a gap for mandatory changes
+    std::string gap_opening = "on";
+    double courtesy = 1.0;  // cooperative: probability with which a driver without V2V opens a gap as with `on`
     // Discretionary changes: MOBIL (Kesting, Treiber, Helbing 2007). MOBIL rates a change by the accelerations that
     // result from the intelligent driver model (IDM) with the desired gap of the spacing policy.
     double threshold_mps2 = 0.1;  // smallest gain in acceleration that counts

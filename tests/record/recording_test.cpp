@@ -170,6 +170,24 @@ TEST(Recording, ReadsBackLinks) {
     EXPECT_GT(refusals, 10u);
 }
 
+// With cooperative gap opening, links lead from vehicles that ask for a gap to the vehicles that open it.
+TEST(Recording, ReadsBackGapAgreements) {
+    const Scenario scenario = load_scenario(
+        STOPLINE_SOURCE_DIR "/scenarios/berlin.yaml",
+        {"populations=[CTG-Ref, SWITCH-1, CDG]", "driver.lane_change.gap_opening=cooperative", "duration=150 s"});
+    Recorded recorded;
+    expect_round_trip_of(scenario, {}, recorded);
+    std::size_t agreements = 0;
+    for (std::size_t frame = 0; frame < recorded.frames.size(); ++frame) {
+        for (const VehicleLink& link : recorded.links[frame]) {
+            EXPECT_TRUE(recorded.frames[frame].contains(link.vehicle));
+            EXPECT_NE(link.vehicle, link.other);
+            ++agreements;
+        }
+    }
+    EXPECT_GT(agreements, 10u);
+}
+
 TEST(Recording, ReadsBackRareFrames) { expect_round_trip("meso", {7.0, 0.0, 238.0}); }
 TEST(Recording, SlowReadsBackAFullDynamicsRun) { expect_round_trip("full", {0.5, 60.0, 120.0}); }
 

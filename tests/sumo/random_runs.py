@@ -2,12 +2,13 @@
 """Runs random scenarios and checks for violations.
 
     random_runs.py --bin FOLDER_OF_STOPLINE_PROGRAMS --kind KIND [--count 100] [--first 1] [--fleet] [--keep FOLDER]
+                   [--set FIELD=VALUE]
 
 Each scenario has a number, which is the seed of its random features: policies and their mixture, vehicle, signal and
 demand. The kinds: `light` is a single light, `junction` one intersection, `arterial` a row of intersections, `streets` a
 corridor of random_corridors.py, `imported` a network of tests/data. Each scenario runs in both fidelities. With --fleet,
 the components of a population have vehicles and drivers of their own: cars, electric cars, lorries and buses. With
---keep, the files of the scenarios stay in a folder.
+--keep, the files of the scenarios stay in a folder. Each --set FIELD=VALUE changes a field of all scenarios.
 
 A run fails if the program reports a violation or a deadlock, if a movement starves, or if the program rejects the
 scenario although it should accept it. Exit codes: 0 no run failed, 1 some runs failed.
@@ -172,10 +173,11 @@ def scenario(kind, number, folder, fleet):
             "populations": [mixture], "vehicle": rng.choice(VEHICLES), "driver": driver}  # fmt: skip
 
 
-def problem(binary, file, fidelity, output):
+def problem(binary, file, overrides, output):
     """Runs a scenario. Returns what is wrong with the run, or an empty text."""
-    command = [binary / "stopline-run", file, "--no-figures", "--threads", "1", "--output", output,
-               "--set", f"fidelity={fidelity}"]  # fmt: skip
+    command = [binary / "stopline-run", file, "--no-figures", "--threads", "1", "--output", output]  # fmt: skip
+    for override in overrides:
+        command += ["--set", override]
     result = subprocess.run(command, capture_output=True, text=True, check=False)
     summary = output / "summary.csv"
     if not summary.is_file():
@@ -194,7 +196,7 @@ def run(options, folder, number):
     file.write_text(json.dumps(scenario(options.kind, number, folder, options.fleet), indent=1))
     failed = []
     for fidelity in options.fidelity or ["meso", "full"]:
-        text = problem(options.bin, file, fidelity, folder / f"{options.kind}_{number}_{fidelity}")
+        text = problem(options.bin, file, [f"fidelity={fidelity}", *options.set], folder / f"{options.kind}_{number}_{fidelity}")
         if text:
             failed.append(f"{options.kind} {number}, {fidelity}: {text}")
     return failed
@@ -210,6 +212,8 @@ def main():
     parser.add_argument("--count", type=int, default=100, help="number of scenarios (default: 100)")
     parser.add_argument("--first", type=int, default=1, help="number of the first scenario (default: 1)")
     parser.add_argument("--jobs", type=int, default=2, help="runs at the same time (default: 2)")
+    parser.add_argument("--set", metavar="FIELD=VALUE", action="append", default=[],
+                        help="override of a field in all scenarios, as with stopline-run")
     parser.add_argument("--keep", type=Path, help="folder for scenarios and results (default: a temporary one)")
     options = parser.parse_args()
     options.bin = options.bin.resolve()

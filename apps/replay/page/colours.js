@@ -21,6 +21,7 @@ const CAUSES = {
 // Colour and label of each kind of links between vehicles, by its name in the recording.
 const LINKS = {
     refusal: ['#6a1b9a', 'refused: waits for room (line to the vehicle or lane)'],
+    gap: ['#1565c0', 'asks for a gap (line to the vehicle that opens it)'],
 };
 
 // Returns the ways to colour vehicles, by name. Each way has colours, their labels, and a function `of` that returns

@@ -1,5 +1,6 @@
 #include "record/recording/vehicle_links.h"
 
+#include <algorithm>
 #include <array>
 
 #include "base/containers/index.h"
@@ -42,9 +43,25 @@ void add_refusals(const State& state, int kind, std::vector<VehicleLink>& links)
     }
 }
 
+bool has_gap_agreements(const Model& model) {
+    return std::any_of(model.drivers.begin(), model.drivers.end(), [](const DriverPlan& driver) {
+        return !driver.is_human && driver.lane_change.gap_opening == "cooperative";
+    });
+}
+
+// A vehicle has asked for a gap, and another vehicle opens it.
+void add_gap_agreements(const State& state, int kind, std::vector<VehicleLink>& links) {
+    for (const std::vector<GapRequest>& requests : state.gap_cooperation.requests) {
+        for (const GapRequest& request : requests) {
+            if (request.agreed()) links.push_back({kind, request.requester, request.opener, -1});
+        }
+    }
+}
+
 // The order is that of the list in the header of a recording.
 constexpr std::array kLinkKinds{
     LinkKind{"refusal", has_refusals, add_refusals},
+    LinkKind{"gap", has_gap_agreements, add_gap_agreements},
 };
 
 }  // namespace

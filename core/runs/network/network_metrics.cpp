@@ -5,6 +5,7 @@
 
 #include "base/nan.h"
 #include "base/units.h"
+#include "runs/network/gap_metrics.h"
 #include "scenario/kinds/network_kind.h"
 
 namespace stopline {
@@ -394,7 +395,7 @@ MetricList<MeasuredNetwork> backlog_metrics() {
 const MetricList<MeasuredNetwork>& network_metrics() {
     static const MetricList<MeasuredNetwork> kMetrics =
         joined_lists<MeasuredNetwork>({area_metrics(), window_metrics(), stability_metrics(), gridlock_metrics(),
-                                       delay_metrics(), street_metrics(), stop_metrics(), trip_metrics(),
+                                       delay_metrics(), gap_metrics(), street_metrics(), stop_metrics(), trip_metrics(),
                                        count_metrics<MeasuredNetwork>({"overlaps", "conflicts", "red_entries",
                                                                        "forced_red_entries", "lost_vehicles"}),
                                        backlog_metrics()});

@@ -54,6 +54,7 @@ struct NetworkResult {
     std::optional<double> collapse_s;  // time at which the run becomes unstable; empty: not unstable
     int full_cycles = 0;               // number of signal cycles after the network has filled
     DelayLog delays;
+    GapCounts gap_counts;  // outcomes of cooperative gap opening
     Violations violations;
     V2vResult v2v;
     double longest_in_junction_s = 0.0;

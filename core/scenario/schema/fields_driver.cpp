@@ -152,9 +152,13 @@ const Table& lane_change_table() {
             choice<&S::look_ahead>(
                 "look_ahead", {"off", "on"},
                 "on: vehicles choose a lane also for their turn at the intersection after the next one"),
-            choice<&S::gap_opening>("gap_opening", {"off", "on"},
-                                    "on: a follower in the target lane opens a gap for a mandatory change")
+            choice<&S::gap_opening>(
+                "gap_opening", {"off", "on", "cooperative"},
+                "on: a follower in the target lane opens a gap for a mandatory change; cooperative: vehicles with V2V "
+                "agree on the gap")
                 .renamed_from("help"),
+            number<&S::courtesy>("courtesy", "%", {0, 100},
+                                 "probability with which a driver without V2V opens a gap for another vehicle"),
             number<&S::threshold_mps2>("threshold", "m/s2", {0, 10},
                                        "discretionary changes (MOBIL): smallest gain in acceleration that counts"),
             number<&S::gain_mps>("gain", "km/h", {0, 100},

@@ -5,6 +5,7 @@
 #include "base/containers/index.h"
 #include "base/speed_thresholds.h"
 #include "sim/clearing/keep_clear.h"
+#include "sim/state/queries/received_message.h"
 
 namespace stopline {
 

@@ -5,38 +5,20 @@
 #include "base/containers/index.h"
 #include "sim/clearing/exit_booking.h"
 #include "sim/clearing/keep_clear.h"
+#include "sim/state/queries/received_message.h"
 
 namespace stopline {
 
 namespace {
 
 constexpr double kFresh_s = 1.0;  // longest age of a message that a vehicle relies on
-constexpr std::int64_t kNotReceived = -1;
 
-// Returns the tick at which the sender sent the newest message that the listener has received; kNotReceived: no message
+// Returns the tick at which the sender sent the newest message that the listener has received; kNoMessage: no message
 // of the last kFresh_s has arrived.
-std::int64_t newest_message_tick(const Model& model, const State& state, const Listener& listener, int sender_slot,
-                                 double distance_m) {
-    const V2vPlan& plan = model.v2v_plan;
-    if (distance_m > plan.settings.range_m) return kNotReceived;
-    const int sender = state.vehicles.id[at(sender_slot)];
-    V2vMessage message;
-    message.link_key = link_key(plan.key, sender, state.vehicles.id[at(listener.slot)]);
-    message.distance_m = distance_m;
-    if (plan.channel->reads_density)
-        message.density_vpkm = state.vehicles_per_km[at(state.plan.intersection_of(listener.lane))];
-    const std::int64_t first_tick = first_send_tick(plan, sender);
-    const std::int64_t oldest_tick = std::max(state.tick - to_ticks(kFresh_s, model.step_s), first_tick);
-    const std::int64_t last_tick = state.tick - plan.delay_ticks;
-    if (last_tick < oldest_tick) return kNotReceived;
-    for (std::int64_t number = (last_tick - first_tick) / plan.interval_ticks;; --number) {
-        const std::int64_t sent_tick = first_tick + number * plan.interval_ticks;
-        if (sent_tick < oldest_tick) return kNotReceived;
-        message.number = number;
-        if (sent_tick + plan.delay_ticks + jitter_ticks(plan, message.link_key, number) > state.tick) continue;
-        if (plan.channel->is_delivered == nullptr || plan.channel->is_delivered(plan.settings, message))
-            return sent_tick;
-    }
+std::int64_t newest_fresh_tick(const Model& model, const State& state, const Listener& listener, int sender_slot,
+                               double distance_m) {
+    return newest_message_tick(model, state, {sender_slot, listener.slot, listener.lane, distance_m},
+                               to_ticks(kFresh_s, model.step_s));
 }
 
 // Returns the slot of the vehicle with V2V that is furthest upstream on a lane; -1: none.
@@ -65,7 +47,7 @@ const LaneAnnouncement* latest_announcement(const State& state, int lane) {
 ReceivedAnnouncement received_announcement(const Model& model, const State& state, const Listener& listener) {
     const auto heard_tick = [&](int sender_slot) {
         const double distance_m = listener.to_exit_m + state.vehicles.position_m[at(sender_slot)];
-        return newest_message_tick(model, state, listener, sender_slot, distance_m);
+        return newest_fresh_tick(model, state, listener, sender_slot, distance_m);
     };
     const int last = last_with_v2v(state, listener.exit);
     if (last < 0) return {true, latest_announcement(state, listener.exit)};
@@ -81,7 +63,7 @@ ReceivedAnnouncement received_announcement(const Model& model, const State& stat
         const std::int64_t sent_tick = leaver >= 0 && has_v2v(state, leaver) ? heard_tick(leaver) : last_heard_tick;
         if (sent_tick >= number * interval) return {true, found};
     }
-    return {last_heard_tick != kNotReceived, nullptr};
+    return {last_heard_tick != kNoMessage, nullptr};
 }
 
 ReceivedBookings received_bookings(const Model& model, const State& state, const Listener& listener) {
@@ -101,8 +83,8 @@ ReceivedBookings received_bookings(const Model& model, const State& state, const
             // Vehicles past the line are in sight.
             if (distance_m < 0.0 || v.next_lane[at(slot)] != connection || !has_v2v(state, slot)) continue;
             const std::int64_t heard_tick =
-                newest_message_tick(model, state, listener, slot, to_line_m + path.length_m + distance_m);
-            if (heard_tick == kNotReceived) result.is_fresh = false;
+                newest_fresh_tick(model, state, listener, slot, to_line_m + path.length_m + distance_m);
+            if (heard_tick == kNoMessage) result.is_fresh = false;
             if (is_latest && heard_tick < latest.tick) result.unknown_m += space_needed_m(v, slot);
         }
     }

@@ -6,8 +6,6 @@
 // order of the vehicles, but not whether a place is free.
 #pragma once
 
-#include <cstdint>
-
 #include "sim/state/clearing_state.h"
 #include "sim/state/model.h"
 #include "sim/state/state.h"
@@ -22,10 +20,6 @@ struct Listener {
     double to_exit_m = 0.0;  // distance from the vehicle's front to the start of the exit lane
 };
 
-// Returns true if the vehicles send over a channel with delays or losses. If not, each announcement is known to all
-// vehicles in the step after it was made.
-inline bool uses_channel(const Model& model) { return model.v2v_plan.channel != nullptr; }
-
 // Returns the latest announcement of a lane that was complete before this step; nullptr: none.
 const LaneAnnouncement* latest_announcement(const State& state, int lane);
 
@@ -34,7 +28,7 @@ struct ReceivedAnnouncement {
     bool is_fresh = false;                           // the newest message from the exit lane is at most 1 s old
     const LaneAnnouncement* announcement = nullptr;  // nullptr: the vehicles of the lane have announced nothing
 };
-// Preconditions: uses_channel(). A lane without V2V vehicles counts as fresh: the vehicle sees the lane.
+// Precondition: uses_channel(). A lane without V2V vehicles counts as fresh: the vehicle sees the lane.
 ReceivedAnnouncement received_announcement(const Model& model, const State& state, const Listener& listener);
 
 // The bookings on the exit lane by vehicles of other approach lanes.

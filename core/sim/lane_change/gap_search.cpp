@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "base/containers/index.h"
+#include "base/random.h"
 #include "driver/following_model.h"
+#include "sim/lane_change/gap_cooperation.h"
 #include "sim/lane_change/lane_change.h"
 #include "sim/perception/lane_gaps.h"
 #include "sim/state/queries/desired_gap.h"
@@ -38,7 +40,7 @@ public:
             if (me.to_line_m < -model_.driver_of(me.policy).tables.stop.margin_m) continue;
             if (me.lane_changes != 0) add_stop(me);
             const MandatoryChange change = mandatory_change(model_, state_, me);
-            if (change.lane_changes != 0) align_with_gap(me, change);
+            if (change.lane_changes != 0 && !has_gap_agreement(state_, lane_, slot)) align_with_gap(me, change);
         }
     }
 
@@ -80,6 +82,17 @@ private:
         return (waits || follower.gap_m < needed_m) && !wants_to_swap(other, follower.slot, me);
     }
 
+    // Returns true if the vehicle in `slot` opens a gap for `me` without a request.
+    bool helps(int slot, const LaneChangeRequest& me) const {
+        const DriverPlan& driver = model_.driver_of(v_.policy[at(slot)]);
+        if (driver.lane_change.gap_opening != "cooperative") return driver.lane_change.gap_opening == "on";
+        // Vehicles with V2V open gaps on request. Only a vehicle that waits almost at rest needs no request.
+        if (!driver.is_human) return me.speed_mps < kMinSpeed_mps;
+        return random_uniform(model_.seed, static_cast<std::uint64_t>(v_.id[at(slot)]),
+                              static_cast<std::uint64_t>(v_.id[at(me.slot)]),
+                              Purpose::courtesy) < driver.lane_change.courtesy;
+    }
+
     // Returns the vehicle on lane `other` that opens a gap for `me`. It is the first vehicle behind `me` that can brake
     // to the speed of `me` with GapAlignment::kDeceleration_mps2 and still has the gap that `me` requires at rest with
     // the highest urgency. If both vehicles are almost at rest, the gap cannot grow any more. So it must then suffice
@@ -96,7 +109,7 @@ private:
             const double braking_m =
                 braking_distance_m(v_.speed_mps[at(slot)], me.speed_mps, GapAlignment::kDeceleration_mps2);
             const int policy = v_.policy[at(slot)];
-            if (model_.driver_of(policy).lane_change.gap_opening != "on") continue;
+            if (!helps(slot, me)) continue;
             const bool stands = me.speed_mps < kMinSpeed_mps && v_.speed_mps[at(slot)] < kMinSpeed_mps;
             if (stands && has_let_in(slot)) continue;
             const double share = urgent_share(model_.driver_of(me.policy).lane_change, stands ? urgency : 1.0);
@@ -138,23 +151,16 @@ private:
         const Neighbour& follower = there.follower;
         if (must_let_pass(other, follower, me, change.urgency())) {
             const Neighbour opener = gap_opener(other, follower, me, change.urgency());
-            if (opener.slot >= 0) add_alignment(other, {opener.slot, opening_speed_mps(opener, me)});
+            if (opener.slot >= 0) add_alignment(state_, part_, other, {opener.slot, opening_speed_mps(opener, me)});
             // If the follower itself does not open the gap, it goes first, and `me` falls back behind it.
             if (opener.slot != follower.slot)
                 target_mps = std::min(target_mps, std::max(follower.speed_mps - kFallBack_mps, kMinSpeed_mps));
         }
-        if (target_mps < me.speed_mps + 1.0) add_alignment(lane_, {me.slot, target_mps});
+        if (target_mps < me.speed_mps + 1.0) add_alignment(state_, part_, lane_, {me.slot, target_mps});
     }
 
     int route_from(int other, const LaneChangeRequest& me) const {
         return state_.plan.adjacent(other).turn_option(me.turn).route;
-    }
-
-    void add_alignment(int lane, const GapAlignment& alignment) {
-        std::vector<GapAlignment>& alignments = state_.gap_alignments[at(lane)];
-        if (alignments.empty()) part_.lanes_with_alignments.push_back(lane);
-        alignments.push_back(alignment);
-        state_.queues.standing[at(lane)].last_external_tick = state_.tick;
     }
 
     const Model& model_;
@@ -170,6 +176,7 @@ void prepare_lane_changes(const Model& model, State& state, Partition& part) {
     if (state.plan.lanes_with_neighbours().empty()) return;
     for (const int lane : part.lanes_with_alignments) state.gap_alignments[at(lane)].clear();
     part.lanes_with_alignments.clear();
+    if (state.gap_cooperation.is_on()) cooperate_on_gaps(model, state, part);
     for (const int lane : part.occupied) {
         if (state.plan.adjacent(lane).has_neighbours()) GapSearch(model, state, part, lane).search();
     }

@@ -7,6 +7,7 @@
 #include "base/containers/index.h"
 #include "base/simd/arithmetic.h"
 #include "base/speed_thresholds.h"
+#include "sim/lane_change/gap_cooperation.h"
 #include "sim/lane_change/preferred_lane.h"
 #include "sim/lane_change/route_choice.h"
 #include "sim/perception/lane_gaps.h"
@@ -282,6 +283,9 @@ private:
             add_gain(incentive_mps2(model_, state_, me_, here, there, to_the_right), gain_mps);
             if (static_cast<double>(gain_mps) < best_mps) return;
             if (!gaps_suffice(model_, me_, there, lane_change().gap_share)) return;
+            if (there.follower.slot >= 0 &&
+                is_reserved(state_, other, there.follower.slot, state_.vehicles.id[at(me_.slot)]))
+                return;
             best_mps = gain_mps;
             chosen = other;
             chosen_neighbours = there;

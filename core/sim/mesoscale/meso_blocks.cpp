@@ -161,10 +161,10 @@ private:
     // the cap that holds it while the lane sleeps.
     void cap_aligning_vehicles(bool sleeps) {
         if (part_.lanes_with_alignments.empty()) return;
-        const double braking_step_mps = GapAlignment::kDeceleration_mps2 * model_.step_s;
         for (const GapAlignment& alignment : state_.gap_alignments[at(lane_)]) {
             const double speed_mps = v_.speed_mps[at(alignment.slot)];
             if (sleeps && alignment.slot == block_.first && speed_mps == 0.0) continue;
+            const double braking_step_mps = alignment.deceleration_mps2 * model_.step_s;
             first_aligns_ = first_aligns_ || alignment.slot == block_.first;
             cap_speed(alignment.slot, std::max(alignment.target_speed_mps, speed_mps - braking_step_mps));
         }

@@ -7,10 +7,12 @@ namespace stopline {
 // A vehicle that adapts its speed to a gap in the adjacent lane, or that opens a gap for a vehicle of the adjacent
 // lane.
 struct GapAlignment {
+    static constexpr double kDeceleration_mps2 = 2.0;
+    static constexpr double kTimeToTarget_s = 1.0;  // full dynamics: the acceleration is the speed error over this time
+
     int slot = -1;
     double target_speed_mps = 0.0;
-
-    static constexpr double kDeceleration_mps2 = 2.0;  // strongest braking towards the target speed
+    double deceleration_mps2 = kDeceleration_mps2;  // strongest braking towards the target speed
 };
 
 }  // namespace stopline

@@ -12,6 +12,7 @@
 #include "base/containers/index_buffer.h"
 #include "sim/state/delay_log.h"
 #include "sim/state/events.h"
+#include "sim/state/gap_requests.h"
 #include "sim/state/vehicles/full_group.h"
 #include "sim/state/vehicles/lane_group.h"
 
@@ -101,6 +102,7 @@ struct Partition {
     std::int64_t passed_blockers = 0;
     std::int64_t refused = 0;        // vehicles that cooperative clearing begins to hold
     std::int64_t refusal_ticks = 0;  // number of refused vehicles that are stopped at their line
+    GapCounts gap_counts;
     Violations violations;
     std::vector<Crossing> crossings;
     std::vector<GapAccepted> gaps_accepted;

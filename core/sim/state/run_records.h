@@ -8,6 +8,7 @@
 
 #include "network/lane_graph.h"
 #include "sim/state/events.h"
+#include "sim/state/gap_requests.h"
 
 namespace stopline {
 
@@ -23,6 +24,7 @@ struct RunRecords {
     std::vector<std::array<std::int64_t, kMaxTurns>>
         turned;  // [approach][Turn] number of vehicles that have made the turn
     Violations violations;
+    GapCounts gap_counts;
     std::int64_t entered = 0;
     std::int64_t exited = 0;
     std::int64_t updates = 0;              // vehicles present, summed over all steps; includes vehicles at rest

@@ -10,6 +10,7 @@
 #include "sim/state/congestion_state.h"
 #include "sim/state/detector_state.h"
 #include "sim/state/gap_alignment.h"
+#include "sim/state/gap_requests.h"
 #include "sim/state/insertion_state.h"
 #include "sim/state/junction_state.h"
 #include "sim/state/model.h"
@@ -49,6 +50,7 @@ struct State {
     ClearingState clearing;
     JunctionState junctions;
     std::vector<std::vector<GapAlignment>> gap_alignments;  // [lane]
+    GapCooperation gap_cooperation;
     QueueState queues;
     DetectorState detectors;
     InsertionState insertion;

@@ -44,10 +44,9 @@ void add_lane(const Model& model, const State& state, int lane, std::span<const 
         hidden_leader_demands = hidden_leader_demands.subspan(1);
     }
     for (const GapAlignment& alignment : state.gap_alignments[at(lane)]) {
-        constexpr double kTimeToTarget_s = 1.0;
         const double acceleration_mps2 =
-            (alignment.target_speed_mps - v.speed_mps[at(alignment.slot)]) / kTimeToTarget_s;
-        demand(alignment.slot, std::max(acceleration_mps2, -GapAlignment::kDeceleration_mps2));
+            (alignment.target_speed_mps - v.speed_mps[at(alignment.slot)]) / GapAlignment::kTimeToTarget_s;
+        demand(alignment.slot, std::max(acceleration_mps2, -alignment.deceleration_mps2));
     }
     if (state.prescribed.vehicle >= 0 && v.id[at(block.first)] == state.prescribed.vehicle) {
         demand(block.first, state.prescribed.acceleration_mps2);

@@ -42,6 +42,8 @@ void merge_partition_reports(State& state) {
         records.violations.add(part.violations);
         part.updates = part.longest_in_junction = part.passed_blockers = part.refused = part.refusal_ticks = 0;
         part.violations = {};
+        records.gap_counts.add(part.gap_counts);
+        part.gap_counts = {};
         move_to(records.crossings, part.crossings);
         move_to(records.gaps_accepted, part.gaps_accepted);
         move_to(rule_uses, part.rule_uses);

@@ -17,6 +17,7 @@
 #include "sim/junction/right_of_way.h"
 #include "sim/junction/signals.h"
 #include "sim/junction/stop_lines.h"
+#include "sim/lane_change/gap_cooperation.h"
 #include "sim/lane_change/gap_search.h"
 #include "sim/lane_change/lane_change.h"
 #include "sim/mesoscale/meso_blocks.h"
@@ -61,6 +62,7 @@ Simulation::Simulation(const Model& model, int threads)
         for (Partition& part : state_.partitions) list_cache_lines(model_, state_, part);
     }
     init_clearing(model_, state_);
+    init_gap_cooperation(model_, state_);
     insert_initial_queues(model_, state_);
     start_signals(model_, state_);
 }

@@ -1,0 +1,26 @@
+// Cooperative gap opening: a vehicle that must change lanes asks by V2V for a gap, and one vehicle of the target lane
+// opens it.
+#pragma once
+
+#include "sim/lane_change/lane_change.h"
+#include "sim/state/model.h"
+#include "sim/state/state.h"
+
+namespace stopline {
+
+// Must be called before the first step.
+void init_gap_cooperation(const Model& model, State& state);
+
+// Renews the requests of a partition, finds openers and adapts the speeds of the vehicles that have agreed.
+void cooperate_on_gaps(const Model& model, State& state, Partition& part);
+
+// Adds the alignment of a vehicle on `lane`.
+void add_alignment(State& state, Partition& part, int lane, const GapAlignment& alignment);
+
+// Returns true if the vehicle in `slot` of `lane` has agreed on a gap.
+bool has_gap_agreement(const State& state, int lane, int slot);
+
+// Returns true if the vehicle in `slot` of `lane` holds open a gap for a vehicle other than `requester` (id).
+bool is_reserved(const State& state, int lane, int slot, int requester);
+
+}  // namespace stopline
