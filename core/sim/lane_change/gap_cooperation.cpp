@@ -179,8 +179,8 @@ private:
         return place;
     }
 
-    // Returns the tick of the newest message from the requester to a vehicle of the target lane (`request_tick`), or from
-    // that vehicle to the requester (`answer_tick`).
+    // Returns the tick of the newest message from the requester to a vehicle of the target lane (`request_tick`), or
+    // from that vehicle to the requester (`answer_tick`).
     std::int64_t request_tick(const GapRequest& r, const LaneChangeRequest& me, int other) const {
         return heard_tick({me.slot, other, r.target_lane, std::abs(there_m_ - v_.position_m[at(other)])});
     }
@@ -226,8 +226,8 @@ private:
         add_alignment(state_, part_, lane_, {me.slot, std::max(expected_lead_mps(place) - back_mps, 0.0)});
     }
 
-    // Returns the speed of the leader at the time at which an alignment takes effect. In full dynamics a vehicle reaches
-    // its target speed gradually.
+    // Returns the speed of the leader at the time at which an alignment takes effect. In full dynamics a vehicle
+    // reaches its target speed gradually.
     double expected_lead_mps(const Place& place) const {
         if (model_.meso || place.leader < 0) return place.lead_mps;
         return place.lead_mps + v_.acceleration_mps2[at(place.leader)] * GapAlignment::kTimeToTarget_s;
@@ -304,8 +304,8 @@ private:
         if (faster_mps < -kFallingBack_mps && me.speed_mps > kCrawlingSpeed_mps) return -1.0;
         if (faster_mps > kFallingBack_mps && lead_mps <= kSlow_mps) return -1.0;
         const bool starts = speed_mps <= kSlow_mps;
-        // A vehicle in a standing queue does not agree. Most of these agreements would end unused, because it is not yet
-        // known when the queues on both lanes start. Once both have started, the opener starts later.
+        // A vehicle in a standing queue does not agree. Most of these agreements would end unused, because it is not
+        // yet known when the queues on both lanes start. Once both have started, the opener starts later.
         if (me.speed_mps <= kCrawlingSpeed_mps || lead_mps <= kCrawlingSpeed_mps) return -1.0;
         const double forward_m = 0.5 * square(std::max(faster_mps, 0.0)) / GapAlignment::kDeceleration_mps2;
         const Place place = place_ahead_of(me, r.target_lane, slot, there_m_ + forward_m);

@@ -22,9 +22,8 @@ struct MessageLink {
 
 inline constexpr std::int64_t kNoMessage = -1;
 
-// Returns the tick at which the sender sent the newest message that has arrived. Returns kNoMessage if no message of the
-// last `longest_age_ticks` has arrived.
-// Precondition: uses_channel().
+// Returns the tick at which the sender sent the newest message that has arrived. Returns kNoMessage if no message of
+// the last `longest_age_ticks` has arrived. Precondition: uses_channel().
 std::int64_t newest_message_tick(const Model& model, const State& state, const MessageLink& link,
                                  std::int64_t longest_age_ticks);
 
