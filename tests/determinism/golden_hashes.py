@@ -136,6 +136,8 @@ RUNS = [
     Run("berlin_four_lanes", "berlin", {"duration": "300 s", "network.streets": "four_lanes"}),
     Run("berlin_pockets_gap_opening", "berlin",
         {"duration": "300 s", "network.streets": "three_lanes_pockets", "driver.lane_change.gap_opening": "on"}),
+    Run("berlin_gap_agreements", "berlin",
+        {"duration": "300 s", "driver.lane_change.gap_opening": "cooperative", "driver.v2v": "{channel: bernoulli, loss: 20 %}"}),
     Run("berlin_full", "berlin", {"duration": "120 s", **FULL, **population("CDG")}),
     Run("two_intersections", "berlin", TWO_STREETS),
     Run("two_intersections_full", "berlin", {**TWO_STREETS, **FULL, "duration": "300 s", **MIXED}),
