@@ -77,8 +77,8 @@ void add_detectors(const NetworkKind& kind, const Scenario& scenario, Model& mod
     add_loops(scenario, model);
 }
 
-// Prepares the arrays for an active V2V channel, and sets the length of platoons.
-void add_v2v(const DriverSettings& driver, Model& model) {
+// Sets the length of platoons and the time gap between them.
+void limit_platoons(const DriverSettings& driver, Model& model) {
     V2vPlan& plan = model.v2v_plan;
     plan.platoon_time_gap_s = driver.platoon.time_gap_s;
     double lag_s = 0.0;
@@ -147,13 +147,14 @@ Model build_model(const Scenario& scenario, std::size_t population) {
     const V2vSettings& v2v = driver_of(scenario, vehicles.components.front()).v2v;
     const bool active = !scenario.is_meso() && needs_receivers(driver_of(scenario, vehicles.components.front()));
     model.v2v_plan = make_v2v_plan(v2v, active, cacc.v2v_delay_s, model.step_s, model.seed);
-    if (active) add_v2v(driver_of(scenario, vehicles.components.front()), model);
+    if (active) limit_platoons(driver_of(scenario, vehicles.components.front()), model);
     if (scenario.is_meso()) {  // mesoscale car following has no radar delay
         model.meso = true;
         if (is_active_channel(v2v, cacc.radar_range_m)) {
             model.v2v_plan = make_v2v_plan(v2v, true, cacc.v2v_delay_s, model.step_s, model.seed);
             model.v2v_plan.is_active = false;  // only start messages use the channel
         }
+        limit_platoons(driver_of(scenario, vehicles.components.front()), model);
         model.radar = make_delay(0.0, model.step_s);
         model.v2v = make_delay(model.step_s, model.step_s);
     }

@@ -14,6 +14,7 @@
 #include "scenario/schema/quantity.h"
 #include "sim/mesoscale/following_families.h"
 #include "spacing_laws/gap_policy.h"
+#include "v2v/platoon_length.h"
 
 namespace stopline {
 namespace {
@@ -159,7 +160,11 @@ std::vector<std::string> range_warnings(const Scenario& scenario) {
     };
     if (driver.v2v.topology != V2vSettings{}.topology) without_effect("driver.v2v.topology");
     if (driver.v2v.fallback != FallbackSettings{}) without_effect("driver.v2v.fallback");
-    if (driver.platoon != PlatoonSettings{}) without_effect("driver.platoon");
+    if (driver.platoon.max_vehicles != kAnyLength && !relays_starts(scenario)) {
+        lines.push_back(
+            "driver.platoon.max_vehicles has no effect: no vehicle keeps a constant distance (the model "
+            "constant_distance of the mesoscale mode)");
+    }
     if (limit_mps > kLimitRounding * meso.calibrated_speed_limit_mps) {
         lines.push_back(beyond_text(limit_mps, meso.calibrated_speed_limit_mps,
                                     "the mesoscale parameters '" + meso.name + "'", "meso.calibrated_speed_limit",

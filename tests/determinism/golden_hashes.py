@@ -131,6 +131,8 @@ RUNS = [
     Run("grid_full_gridlock", "grid", {**GRIDLOCK, **FULL}, situation=("gridlocks", "passed_blockers")),
     Run("small_grid_switch", "grid",
         {**SMALL_GRID, "populations": "[SWITCH-1, SWITCH-2]", "measure.baseline": "SWITCH-1"}),
+    Run("grid_mini_platoons", "coordination_grid", {**SMALL_GRID, "driver.platoon.max_vehicles": "5"}),
+    Run("grid_mini_platoons", "coordination_grid", {**SMALL_GRID, "driver.platoon.max_vehicles": "5"}, threads=2),
     Run("berlin_three_lanes", "berlin", {"duration": "420 s"}),
     Run("berlin_three_lanes", "berlin", {"duration": "420 s"}, threads=2),
     Run("berlin_four_lanes", "berlin", {"duration": "300 s", "network.streets": "four_lanes"}),

@@ -9,6 +9,7 @@
 #include "reference/junction/stop_lines.h"
 #include "reference/lane_change/gap_search.h"
 #include "reference/lane_change/lane_change.h"
+#include "reference/platoons.h"
 #include "reference/queue.h"
 #include "reference/sensors.h"
 
@@ -38,7 +39,8 @@ public:
           stop_lines_(w_),
           right_of_way_(w_),
           gap_search_(w_, routes_),
-          lane_changes_(w_, routes_) {
+          lane_changes_(w_, routes_),
+          platoons_(w_) {
         if (model.demand.starts_queued) inlets_.insert_queues();
     }
 
@@ -121,8 +123,9 @@ private:
         return highest_mps;
     }
 
-    double next_meso_mps(const Lane& lane, Vehicle& v, const Leader& leader) {
-        const double highest_mps = highest_meso_mps(lane, v, leader);
+    // `platoon_mps`: the highest next speed of a leader of a mini-platoon.
+    double next_meso_mps(const Lane& lane, Vehicle& v, const Leader& leader, double platoon_mps) {
+        const double highest_mps = std::min(highest_meso_mps(lane, v, leader), platoon_mps);
         const bool leads = v.is_platoon_leader && has_platoon_leaders(w_.meso);
         double next_mps = leads ? next_platoon_leader_speed_mps(w_.meso, lane, v, leader, highest_mps, w_.tick)
                                 : next_follower_speed_mps(w_.meso, lane, v, leader, highest_mps, w_.tick);
@@ -158,6 +161,7 @@ private:
             update_standing_queue(lane, w_.tick);
             relay_start_message(w_.meso, lane);
         }
+        platoons_.update();
         std::vector<std::pair<Vehicle*, double>> next_speeds;
         for (Lane& lane : w_.lanes) {
             for (Vehicle& v : lane.vehicles) {
@@ -165,8 +169,9 @@ private:
                 // A start message changes the acceleration of its receiver in this step. Only a follower on the same
                 // lane uses the changed value.
                 if (v.index > 0) leader.acceleration_mps2 = leader.vehicle->acceleration_mps2;
+                const double platoon_mps = platoons_.highest_mps(leader, v);
                 leader.acceleration_mps2 = std::max(leader.acceleration_mps2, 0.0);
-                next_speeds.emplace_back(&v, next_meso_mps(lane, v, leader));
+                next_speeds.emplace_back(&v, next_meso_mps(lane, v, leader, platoon_mps));
             }
         }
         for (const auto& [v, next_mps] : next_speeds) {
@@ -385,6 +390,7 @@ private:
     RightOfWay right_of_way_;
     GapSearch gap_search_;
     LaneChanges lane_changes_;
+    Platoons platoons_;
     std::string uncovered_event_;
 };
 

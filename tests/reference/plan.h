@@ -78,6 +78,7 @@ struct Plan {
     double politeness = 0.0;           // of lane changes
     double keep_right_mps2 = 0.0;
     std::string gap_opening = "on";
+    int max_platoon = 0;      // largest number of vehicles of a platoon; 0: no limit
     double reaction_s = 1.0;  // of human drivers
     double gap_error = 0.05;
     std::vector<Component> components{{"CDG", 100.0}};
@@ -170,6 +171,7 @@ inline std::string yaml_of(const Plan& p) {
         p.vehicle, p.radar_delay_ms, p.v2v_delay_ms, p.hesitation_s, p.stop_margin_m, p.stop_mps2, p.decision_mps2,
         p.critical_gap_s, p.gap_share_percent, p.politeness, p.keep_right_mps2, p.gap_opening, p.reaction_s,
         p.gap_error);
+    if (p.max_platoon > 0) text += fmt::format("  platoon: {{max_vehicles: {}}}\n", p.max_platoon);
     std::string policies;
     for (const Plan::Component& component : p.components) {
         const std::string own = own_policy_yaml(component.policy);

@@ -109,6 +109,16 @@ public:
         return p;
     }
 
+    // Platoons of limited length.
+    Plan mini_platoons() {
+        const bool turns_off = chance(40);
+        Plan p = turns_off ? turns(true) : chance(50) ? lane_changes(true) : mesoscale();
+        p.max_platoon = number(1, 5);
+        p.components = {{"CDG", 100.0}};
+        if (chance(40)) p.components = {{"CDG", 70.0}, {one_of({"CTG-Ref", "SWITCH-1"}), 30.0}};
+        return p;
+    }
+
     // Human drivers and vehicles of several types.
     Plan mixed_fleet(bool is_mesoscale) {
         for (;;) {

@@ -3,9 +3,6 @@
 //
 // Not covered: teleports, the pass-blocker rule, missed turns of trips, signal controllers that react to traffic,
 // vehicle types of SUMO, vehicles that enter between two intersections, and runs on several threads.
-//
-// Not covered: teleports, the pass-blocker rule, missed turns of trips, signal controllers that react to traffic,
-// vehicle types of SUMO, vehicles that enter between two intersections, and runs on several threads.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -176,6 +173,12 @@ const std::vector<Family> kFamilies{
      4,
      60,
      {{&S::mandatory_changes, 3}, {&S::alignments, 20}}},
+    {"MesoscalePlatoons",
+     true,
+     [](PlanDraw& random) { return random.mini_platoons(); },
+     40,
+     300,
+     {{&S::time_gap_steps, 10000}, {&S::start_messages, 50}, {&S::held_at_green, 100}, {&S::mandatory_changes, 20}}},
     {"MesoscaleFleets",
      true,
      [](PlanDraw& random) { return random.mixed_fleet(true); },

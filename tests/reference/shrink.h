@@ -68,6 +68,7 @@ inline std::vector<Change> simplifications(const Failure& failure) {
           &Plan::keep_right_mps2, &Plan::reaction_s, &Plan::gap_error}) {
         changes.push_back(reset(field));
     }
+    changes.push_back(reset(&Plan::max_platoon));
     changes.push_back(reset(&Plan::starts_queued));
     changes.push_back(reset(&Plan::keeps_clear));
     changes.push_back(reset(&Plan::vehicle));

@@ -101,6 +101,11 @@ struct Vehicle {
     // Mesoscale mode only.
     bool is_in_queue = false;        // member of the standing queue of its lane
     bool has_start_message = false;  // received a start message in this step
+    int platoon_place = -1;          // number of vehicles ahead in the platoon; -1: not yet known, or no platoon
+    int platoon_leader_id = -1;      // the leader when the place was last decided
+    bool leads_mini_platoon = false;
+    double platoon_time_gap_s = 0.0;
+    double platoon_time_gap_rate = 0.0;
 
     // Full dynamics only.
     double request_mps2 = 0.0;
@@ -196,6 +201,7 @@ struct Situations {
     std::int64_t became_follower = 0;   // platoon leaders that closed up to the vehicle ahead
     std::int64_t started_in_queue = 0;  // followers that started from standstill
     std::int64_t start_messages = 0;    // start messages received
+    std::int64_t time_gap_steps = 0;    // vehicle steps in which the leader of a mini-platoon keeps a time gap
     std::int64_t entered_late = 0;      // vehicles that found no room when they were due
     std::int64_t exited = 0;
     std::int64_t held_at_green = 0;  // vehicle steps in which the keep-clear rule holds a vehicle
@@ -215,29 +221,15 @@ struct Situations {
     std::int64_t slowed_before_limit = 0;  // steps in which a lower limit ahead slowed a vehicle
 
     void add(const Situations& other) {
-        for (std::int64_t Situations::*count : {&Situations::stopped_at_red,
-                                                &Situations::passed_at_yellow,
-                                                &Situations::passed_at_red,
-                                                &Situations::became_follower,
-                                                &Situations::started_in_queue,
-                                                &Situations::start_messages,
-                                                &Situations::entered_late,
-                                                &Situations::exited,
-                                                &Situations::held_at_green,
-                                                &Situations::deadlocks,
-                                                &Situations::yielded,
-                                                &Situations::gaps_accepted,
-                                                &Situations::gaps_refused,
-                                                &Situations::merged,
-                                                &Situations::stop_signs,
-                                                &Situations::mandatory_changes,
-                                                &Situations::discretionary_changes,
-                                                &Situations::alignments,
-                                                &Situations::hidden_leaders,
-                                                &Situations::human_steps,
-                                                &Situations::gear_changes,
-                                                &Situations::emergency_brakings,
-                                                &Situations::slowed_before_limit}) {
+        for (std::int64_t Situations::*count :
+             {&Situations::stopped_at_red,  &Situations::passed_at_yellow,   &Situations::passed_at_red,
+              &Situations::became_follower, &Situations::started_in_queue,   &Situations::start_messages,
+              &Situations::time_gap_steps,  &Situations::entered_late,       &Situations::exited,
+              &Situations::held_at_green,   &Situations::deadlocks,          &Situations::yielded,
+              &Situations::gaps_accepted,   &Situations::gaps_refused,       &Situations::merged,
+              &Situations::stop_signs,      &Situations::mandatory_changes,  &Situations::discretionary_changes,
+              &Situations::alignments,      &Situations::hidden_leaders,     &Situations::human_steps,
+              &Situations::gear_changes,    &Situations::emergency_brakings, &Situations::slowed_before_limit}) {
             this->*count += other.*count;
         }
     }

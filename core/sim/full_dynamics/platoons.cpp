@@ -3,22 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "v2v/platoon_place.h"
+
 namespace stopline {
 
 void update_platoon(const PlatoonLink& link, int max_vehicles, int id, int slot, V2vReceiver& own) {
     const bool joins = link.leader != nullptr && link.leader->platoon >= 0 && link.leader_has_v2v && link.is_following;
-    const bool has_room = max_vehicles == 0 || (joins && link.leader->place_in_platoon + 1 < max_vehicles);
-    if (joins && has_room && (!own.leads_mini_platoon || link.is_stopped)) {
-        own.platoon = link.leader->platoon;
-        own.platoon_leader_slot = link.leader->platoon_leader_slot;
-        own.place_in_platoon = link.leader->place_in_platoon + 1;
-        own.leads_mini_platoon = false;
-        return;
-    }
-    own.platoon = id;
-    own.platoon_leader_slot = slot;
-    own.place_in_platoon = 0;
-    own.leads_mini_platoon = joins;
+    const PlatoonPlace leader{joins ? link.leader->place_in_platoon : 0, false};
+    const PlatoonPlace place = next_platoon_place({own.place_in_platoon, own.leads_mini_platoon}, joins, leader,
+                                                  link.is_stopped, max_vehicles);
+    own.platoon = place.vehicles_ahead > 0 ? link.leader->platoon : id;
+    own.platoon_leader_slot = place.vehicles_ahead > 0 ? link.leader->platoon_leader_slot : slot;
+    own.place_in_platoon = place.vehicles_ahead;
+    own.leads_mini_platoon = place.leads_mini_platoon;
 }
 
 // With C = leader_weight, xi = damping, w = bandwidth, and k = xi + sqrt(xi^2 - 1), the law is

@@ -9,6 +9,7 @@
 #include "driver/acceleration_laws.h"
 #include "sim/full_dynamics/platoons.h"
 #include "sim/state/queries/response_time.h"
+#include "v2v/platoon_place.h"
 
 namespace stopline {
 
@@ -178,10 +179,8 @@ private:
 
 // Returns true if the vehicle at `place` follows its leader at about the desired gap. `was_following`: it did before.
 bool follows(const FullGroup& g, int place, bool was_following) {
-    constexpr double kJoins_m = 15.0;
-    constexpr double kLeaves_m = 25.0;
-    const double extra_m = static_cast<double>(g.gap[place]) - g.desired_gap[place];
-    return g.is_platoon_leader[place] == 0.0F && extra_m < (was_following ? kLeaves_m : kJoins_m);
+    const double excess_m = static_cast<double>(g.gap[place]) - g.desired_gap[place];
+    return g.is_platoon_leader[place] == 0.0F && is_close_enough(excess_m, was_following);
 }
 
 ReceiveStreams streams_of(State& state) {

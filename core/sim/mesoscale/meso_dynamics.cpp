@@ -7,6 +7,7 @@
 #include "base/containers/index.h"
 #include "base/random.h"
 #include "base/simd/simd.h"
+#include "sim/mesoscale/meso_platoons.h"
 #include "sim/state/queries/overlap.h"
 
 namespace stopline {
@@ -99,7 +100,12 @@ void step_meso(const Model& model, State& state, Partition& part) {
     VehicleArrays& v = state.vehicles;
     for (const StartMessage& message : part.start_messages)
         v.acceleration_mps2[at(message.slot)] = message.acceleration_mps2;
-    const ExtraGap extra_gap = evaluate_extra_gap(model, at(meso_block_size(model.scalar_kernels)), v, part);
+    const std::size_t block_size = at(meso_block_size(model.scalar_kernels));
+    if (v.has_platoon_limit) {
+        update_platoons(model, state, part);
+        keep_platoon_gaps(model, block_size, v, part);
+    }
+    const ExtraGap extra_gap = evaluate_extra_gap(model, block_size, v, part);
     const std::int64_t count = step_blocks(model.scalar_kernels, meso_streams(v), part.moving_blocks, model.following,
                                            extra_gap, meso_step(model, state.tick, state.outgrows_cache()));
     if (count > 0) record_first_overlap(model, state, part);

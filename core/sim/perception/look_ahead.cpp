@@ -281,6 +281,7 @@ void find_leaders_beyond_lanes(const Model& model, const State& state, VehicleAr
                 copy_platoon(model.v2v_plan.uses_platoon_leader, v, sentinel, leader_slot, ahead.slot);
             react_to_hidden_leaders(model, state, lane, hidden, part);
         }
+        if (v.has_platoon_limit) v.platoon.place[sentinel] = has_leader ? v.platoon.place[leader_slot] : kNoPlatoon;
         const int id = has_leader ? v.id[leader_slot] : -1;
         if (v.record[at(head)].leader_id == id) continue;
         // The leader has changed or disappeared. The present gap and closing speed replace the whole radar history.

@@ -22,6 +22,7 @@ void initialise_sensors(VehicleArrays& v, int slot, bool first) {
     v.reset_radar(slot, gap_m, first ? 0.0 : v.speed_mps[i] - v.speed_mps[i - 1]);
     v.reset_v2v(slot);
     if (v.has_v2v_channel) v.v2v.reset(slot);
+    if (v.has_platoon_limit) v.platoon.reset(slot);
 }
 
 }  // namespace stopline

@@ -98,6 +98,9 @@ void allocate_lane_blocks(const Model& model, State& state) {
     state.vehicles.has_human_drivers = model.has_human_drivers();
     state.vehicles.has_v2v_channel = model.v2v_plan.is_active;
     if (model.v2v_plan.is_active) state.vehicles.v2v.stored_messages = model.v2v_plan.stored_messages();
+    const auto relays = [](const FollowingModel& following) { return following.relays_starts(); };
+    state.vehicles.has_platoon_limit = model.meso && model.v2v_plan.max_platoon > 0 &&
+                                       std::any_of(model.following.begin(), model.following.end(), relays);
     if (model.meso) {
         int slots = (2 + static_cast<int>(state.partitions.size())) * kSimdWidth + lanes;
         for (const Lane& lane : model.graph.lanes) slots += capacity_for(max_vehicles(model, lane));

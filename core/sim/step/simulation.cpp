@@ -182,6 +182,10 @@ std::uint64_t Simulation::state_hash() const {
                 hash.add(v.v2v.mode[i]);
                 hash.add(v.v2v.time_gap_s[i]);
             }
+            if (v.has_platoon_limit) {
+                hash.add(v.platoon.place[i]);
+                hash.add(v.platoon.time_gap_s[i]);
+            }
             if (model_.meso) continue;
             for (const float value :
                  {v.gear[i], v.request_mps2[i], v.torque_Nm[i], v.brake_N[i], v.gear_time_s[i], v.lag_s[i]}) {

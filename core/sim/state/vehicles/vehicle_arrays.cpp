@@ -14,6 +14,7 @@ void VehicleArrays::for_each_common(Visit visit) {
         visit(standstill_gap_m), visit(type);
     if (has_human_drivers) visit(start_ticks);
     if (has_v2v_channel) v2v.for_each(visit);
+    if (has_platoon_limit) platoon.for_each(visit);
 }
 
 template <class Visit>

@@ -13,6 +13,7 @@
 #include "base/simd/simd.h"
 #include "sim/state/vehicles/lane_block.h"
 #include "sim/state/vehicles/lane_change_memory.h"
+#include "sim/state/vehicles/platoon_arrays.h"
 #include "sim/state/vehicles/vehicle_record.h"
 #include "v2v/receiver.h"
 #include "vehicle/powertrain_tables.h"
@@ -68,12 +69,15 @@ struct VehicleArrays {
     LargeArray<int> start_ticks;
     // Runs with an active V2V channel only (V2vPlan): the messages that the vehicle has received.
     V2vReceivers v2v;
+    // Mesoscale mode with a limited length of platoons only.
+    PlatoonArrays platoon;
 
     int slots = 0;
     int radar_rows = 0;  // 0 in the mesoscale mode
     int v2v_rows = 0;    // 0 in the mesoscale mode
     bool has_human_drivers = false;
     bool has_v2v_channel = false;
+    bool has_platoon_limit = false;
 
     // Full dynamics: sets the number of slots and of rows, and resets all values.
     void resize(int slot_count, int radar_row_count, int v2v_row_count);
