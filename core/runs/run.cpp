@@ -60,7 +60,7 @@ void finish(const Simulation& simulation, RunResult& result) {
     std::sort(result.stop_line_times_s.begin(), result.stop_line_times_s.end());
     result.passages = state.records.passages;
     result.violations = state.records.violations;
-    result.v2v = v2v_result(state.records);
+    result.v2v = v2v_result(state.records, simulation.model().v2v_plan);
     result.vehicles_entered = state.records.entered;
     result.vehicles_exited = state.records.exited;
     result.updates = state.records.updates;

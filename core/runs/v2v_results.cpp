@@ -17,11 +17,14 @@ bool V2vResult::exists() const {
 }
 
 double V2vResult::share_percent(std::size_t mode) const {
+    if (mode == static_cast<std::size_t>(V2vMode::platoon_leader) && !has_platoon_leaders) return kNan;
     const std::int64_t all = std::accumulate(steps.begin(), steps.end(), std::int64_t{0});
     return all == 0 ? kNan : 100.0 * static_cast<double>(steps[mode]) / static_cast<double>(all);
 }
 
-V2vResult v2v_result(const RunRecords& records) { return {records.v2v_mode_changes, records.v2v_mode_steps}; }
+V2vResult v2v_result(const RunRecords& records, const V2vPlan& plan) {
+    return {records.v2v_mode_changes, records.v2v_mode_steps, plan.uses_platoon_leader};
+}
 
 std::string v2v_modes_csv(const std::vector<PopulationV2v>& populations) {
     if (std::none_of(populations.begin(), populations.end(), [](const PopulationV2v& p) { return p.v2v.exists(); }))

@@ -7,20 +7,23 @@
 #include <vector>
 
 #include "sim/state/run_records.h"
+#include "v2v/plan.h"
 
 namespace stopline {
 
 struct V2vResult {
     std::vector<V2vModeChange> changes;
     std::array<std::int64_t, kV2vModes> steps{};  // [mode] vehicles behind a leader, summed over all steps
+    bool has_platoon_leaders = false;             // vehicles use the messages of their platoon leaders
 
     // Returns true if the run has an active V2V channel and vehicles that use it.
     bool exists() const;
-    // Returns the share of the time that vehicles behind a leader drive in a mode; NaN if there are no such vehicles.
+    // Returns the share of the time that vehicles behind a leader drive in a mode; NaN if there are no such vehicles,
+    // or if the topology does not have the mode.
     double share_percent(std::size_t mode) const;
 };
 
-V2vResult v2v_result(const RunRecords& records);
+V2vResult v2v_result(const RunRecords& records, const V2vPlan& plan);
 
 struct PopulationV2v {
     std::string population;

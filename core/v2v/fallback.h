@@ -4,6 +4,9 @@
 //     old_messages  up to 0.5 s  CACC with a time gap: the message is too old for a constant distance
 //     radar         up to 1.0 s  dCACC: radar gives an estimate of the leader's acceleration (Ploeg et al. 2015)
 //     acc           older, or the leader has no V2V  ACC: the leader's acceleration counts as unknown
+// A vehicle that uses the messages of its platoon leader (topology predecessor_and_leader) is in the mode
+// `platoon_leader` instead of `messages`. It uses them up to an age of 0.15 s, without hysteresis.
+//
 // A vehicle changes to a worse mode at once. It returns to a better mode when no age has demanded the present mode for
 // kHysteresis_s. The limits and the hysteresis are our choice, after the states of PlatoonSAFE.
 //
@@ -17,15 +20,16 @@
 
 namespace stopline {
 
-// The order is that of the ladder.
-enum class V2vMode : std::uint8_t { messages, old_messages, radar, acc };
-inline constexpr std::array<const char*, 4> kV2vModeNames{"messages", "old_messages", "radar", "acc"};
+// The order of the first four is that of the ladder.
+enum class V2vMode : std::uint8_t { messages, old_messages, radar, acc, platoon_leader };
+inline constexpr std::array<const char*, 5> kV2vModeNames{"messages", "old_messages", "radar", "acc", "platoon_leader"};
 
 // Returns the mode as a number, as the functions below need it.
 constexpr double number_of(V2vMode mode) { return static_cast<double>(mode); }
 
 inline constexpr std::array<double, 3> kLongestAge_s{0.3, 0.5, 1.0};  // [mode] longest age of the newest message
 inline constexpr double kHysteresis_s = 0.5;
+inline constexpr double kLongestPlatoonLeaderAge_s = 0.15;  // of a message of the platoon leader
 
 // Returns the smallest string-stable time gap of a CACC whose messages have an age, s. Computed for the default gains
 // (0.2 1/s2 and 0.7 1/s) and a lag of 0.1 s of the powertrain; linear between the ages. A test compares the values with

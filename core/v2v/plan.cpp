@@ -50,8 +50,9 @@ V2vPlan make_v2v_plan(const V2vSettings& settings, bool active, double delay_s, 
     for (std::size_t mode = 0; mode < kLongestAge_s.size(); ++mode) {
         plan.longest_age_ticks[mode] = ticks_of(kLongestAge_s[mode], step_s);
     }
-    for (int age = 0; age <= plan.longest_age_ticks[static_cast<std::size_t>(V2vMode::old_messages)]; ++age) {
-        plan.time_gap_of_age_s.push_back(stable_time_gap_s(age * step_s));
+    const int longest_ticks = plan.longest_age_ticks[static_cast<std::size_t>(V2vMode::old_messages)];
+    for (int age = 0; age <= longest_ticks || age % kSimdWidth != 0; ++age) {
+        plan.time_gap_of_age_s.push_back(static_cast<float>(stable_time_gap_s(std::min(age, longest_ticks) * step_s)));
     }
     plan.hysteresis_ticks = ticks_of(kHysteresis_s, step_s);
     plan.filter = make_leader_filter(step_s);

@@ -25,7 +25,9 @@ struct V2vPlan {
     double jitter_ticks = 0.0;  // uniform: largest jitter; exponential: mean jitter
     bool exponential = false;
     std::array<int, kLongestAge_s.size()> longest_age_ticks{};  // [mode] longest age of the newest message
-    std::vector<double> time_gap_of_age_s;  // [age in ticks] stable_time_gap_s(), up to the mode `old_messages`
+    // [age in ticks] stable_time_gap_s(), up to the mode `old_messages`. Longer ages follow with the last value, so
+    // that the number of entries is a multiple of kSimdWidth.
+    std::vector<float> time_gap_of_age_s;
     int hysteresis_ticks = 0;
     LeaderFilter filter;
     bool is_lossless = false;  // true: the channel loses no message of the leader

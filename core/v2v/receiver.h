@@ -6,6 +6,7 @@
 
 #include "base/simd/huge_page_allocator.h"
 #include "v2v/channel.h"
+#include "v2v/fallback.h"
 #include "v2v/plan.h"
 
 namespace stopline {
@@ -21,16 +22,24 @@ struct SentMessage {
     float speed_mps = 0.0F;
 };
 
-// The messages of one sender that have not arrived yet.
-struct alignas(32) V2vLink {
-    // The next message: the tick at which it is sent, and its number.
-    int next_sent_tick = 0;
+// The next message of one sender: the tick at which it is sent, and its number.
+struct V2vLink {
+    int next_sent_tick = kNeverDue;  // kNeverDue: the sender has no V2V
     int next_number = 0;
     // Result of the message before, if the channel has decided about it.
     V2vMessage::Result previous = V2vMessage::Result::unknown;
-    // Messages that are on their way.
-    std::array<int, kJitterIntervals> arrival_tick{-1, -1};  // -1: none
-    std::array<int, kJitterIntervals> arriving_number{};
+};
+
+// The messages of one sender that are on their way. Only channels with jitter use them.
+struct V2vArrivals {
+    std::array<int, kJitterIntervals> tick{-1, -1};  // -1: none
+    std::array<int, kJitterIntervals> number{};
+};
+
+// The memory of the driving mode for the hysteresis (FallbackModeOf). It has no meaning in the mode `messages`.
+struct V2vModeMemory {
+    int worst = 0;
+    int since_tick = 0;
 };
 
 // The newest message that has arrived from a platoon leader.
@@ -56,15 +65,17 @@ struct V2vReceiver {
     int platoon_leader_slot = -1;
     int place_in_platoon = 0;
     // Only if V2vPlan::uses_platoon_leader.
+    V2vMode driving_mode = V2vMode::messages;  // V2vReceivers::mode, or V2vMode::platoon_leader
     V2vLink platoon_link;
+    V2vArrivals platoon_arrivals;
     PlatoonLeaderMessage platoon_message;
 };
 
 // One value for each slot. The slots without an active channel have no values.
 struct V2vReceivers {
     LargeArray<int> sender;  // id of the leader; -1: none
-    // First tick at which the leader's next message can arrive, or at which one that is on its way arrives. kNeverDue:
-    // the leader has no V2V.
+    // First tick at which something can happen: the leader's next message can arrive, one that is on its way arrives,
+    // or the driving mode can change.
     LargeArray<int> due_tick;
     // The newest message of the leader that has arrived: the tick at which it was sent, and its content.
     LargeArray<int> sent_tick;
@@ -75,9 +86,8 @@ struct V2vReceivers {
     LargeArray<float> leader_mps;
     LargeArray<float> leader_mps2;
     // The fallback (fallback.h).
-    LargeArray<int> mode;  // V2vMode
-    LargeArray<int> worst_mode;
-    LargeArray<int> mode_since_tick;
+    LargeArray<int> mode;  // V2vMode, by the age of the leader's messages
+    LargeArray<V2vModeMemory> mode_memory;
     LargeArray<float> time_gap_s;
     LargeArray<float> time_gap_rate;
     // The vehicle's own messages: the next tick at which it sends, and its last messages [slot][number].
@@ -85,14 +95,15 @@ struct V2vReceivers {
     LargeArray<SentMessage> sent;
     int stored_messages = 1;   // V2vPlan::stored_messages()
     LargeArray<V2vLink> link;  // messages of the leader
+    LargeArray<V2vArrivals> arrivals;
     LargeArray<V2vReceiver> rest;
 
     // Visits all arrays with one value for each slot.
     template <class Visit>
     void for_each(Visit visit) {
         visit(sender), visit(due_tick), visit(sent_tick), visit(acceleration_mps2), visit(request_mps2);
-        visit(rate_1ps), visit(leader_mps), visit(leader_mps2), visit(mode), visit(worst_mode), visit(mode_since_tick);
-        visit(time_gap_s), visit(time_gap_rate), visit(send_tick), visit(link), visit(rest);
+        visit(rate_1ps), visit(leader_mps), visit(leader_mps2), visit(mode), visit(mode_memory);
+        visit(time_gap_s), visit(time_gap_rate), visit(send_tick), visit(link), visit(arrivals), visit(rest);
     }
     // Sets the data of a vehicle that has not received anything yet.
     void reset(int slot) {

@@ -51,6 +51,17 @@ TEST(MesoStart, TravelsThroughAConstantDistanceQueueAtTheSpeedOfV2v) {
     EXPECT_NEAR(relayed_s, full_s, 0.5);
 }
 
+// A vehicle hears no start message of a leader that is further away than the range of the messages.
+TEST(MesoStart, ALeaderBeyondTheRangeIsNotHeard) {
+    constexpr int kQueue = 31;
+    const auto last_s = [](const std::string& setting) {
+        return last_start_s(queue("CDG", kQueue, {"fidelity=meso", "meso=passages", setting}), kQueue);
+    };
+    const double unheard_s = last_s("driver.v2v.range=2 m");  // less than the standstill gap
+    EXPECT_DOUBLE_EQ(unheard_s, last_s("meso.start_relay_vehicles=0"));
+    EXPECT_LT(last_s("driver.v2v.range=5 m"), unheard_s - 1.0);
+}
+
 // A vehicle whose policy is a time gap does not relay the V2V message that starts a queue. Each vehicle behind it
 // starts only after its leader has moved.
 TEST(MesoStart, RelayEndsAtAVehicleWithATimeGap) {

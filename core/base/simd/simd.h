@@ -169,6 +169,25 @@ STOPLINE_INLINE bool any(const Packed<kWidth>& flag) {
     return highest > 0.5F;
 }
 
+// Returns the flags of a batch as bits. The first element has the lowest bit.
+template <int kWidth>
+STOPLINE_INLINE std::uint32_t bits_of(const Packed<kWidth>& flag) {
+    static_assert(kWidth <= 32);
+    if constexpr (kWidth == 1) return flag.v > 0.5F ? 1U : 0U;
+#if defined(__AVX512F__)
+    if constexpr (kWidth == 16) {
+        __m512 flags;
+        std::memcpy(&flags, &flag, sizeof flags);
+        return _mm512_cmp_ps_mask(flags, _mm512_set1_ps(0.5F), _CMP_GT_OQ);
+    }
+#endif
+    std::uint32_t bits = 0;
+    if constexpr (kWidth > 1) {
+        for (int k = 0; k < kWidth; ++k) bits |= (flag.v[k] > 0.5F ? 1U : 0U) << static_cast<unsigned>(k);
+    }
+    return bits;
+}
+
 STOPLINE_INLINE double square_root(double value) { return std::sqrt(value); }
 template <class Number, int kWidth>
 STOPLINE_INLINE PackedOf<Number, kWidth> square_root(const PackedOf<Number, kWidth>& value) {

@@ -254,7 +254,7 @@ IntersectionResult run_intersection(const Scenario& scenario, std::size_t popula
     result.longest_in_junction_s = model.time_s(state.records.longest_in_junction);
     result.starvations = state.congestion.delays.starvations;
     result.violations = state.records.violations;
-    result.v2v = v2v_result(state.records);
+    result.v2v = v2v_result(state.records, model.v2v_plan);
     // A run has a deadlock if a vehicle stays in the intersection for slowest_crossing_s() plus two signal cycles or
     // longer.
     const double deadlock_s = 2.0 * cycle_of(scenario) + slowest_crossing_s(model);

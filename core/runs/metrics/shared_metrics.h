@@ -31,21 +31,28 @@ MetricList<Run> v2v_metrics() {
     const auto share = [](V2vMode mode) {
         return [mode](const Run& run) { return run.counts().v2v.share_percent(static_cast<std::size_t>(mode)); };
     };
-    return {{.column = "v2v_old_messages_percent",
-             .unit = "%",
-             .extent = "run",
-             .meaning = "share of the time behind a leader in the mode `old_messages`; empty: no V2V channel is set",
-             .value = share(V2vMode::old_messages)},
-            {.column = "v2v_radar_percent",
-             .unit = "%",
-             .extent = "run",
-             .meaning = "share of the time behind a leader in the mode `radar`; empty: no V2V channel is set",
-             .value = share(V2vMode::radar)},
-            {.column = "v2v_acc_percent",
-             .unit = "%",
-             .extent = "run",
-             .meaning = "share of the time behind a leader in the mode `acc`; empty: no V2V channel is set",
-             .value = share(V2vMode::acc)}};
+    return {
+        {.column = "v2v_old_messages_percent",
+         .unit = "%",
+         .extent = "run",
+         .meaning = "share of the time behind a leader in the mode `old_messages`; empty: no V2V channel is set",
+         .value = share(V2vMode::old_messages)},
+        {.column = "v2v_radar_percent",
+         .unit = "%",
+         .extent = "run",
+         .meaning = "share of the time behind a leader in the mode `radar`; empty: no V2V channel is set",
+         .value = share(V2vMode::radar)},
+        {.column = "v2v_acc_percent",
+         .unit = "%",
+         .extent = "run",
+         .meaning = "share of the time behind a leader in the mode `acc`; empty: no V2V channel is set",
+         .value = share(V2vMode::acc)},
+        {.column = "v2v_platoon_leader_percent",
+         .unit = "%",
+         .extent = "run",
+         .meaning = "share of the time behind a leader in the mode `platoon_leader`; empty: no V2V channel is set, or "
+                    "vehicles do not use the messages of their platoon leaders",
+         .value = share(V2vMode::platoon_leader)}};
 }
 
 // Returns the metrics of vehicles, violations and work. `in_summary` names the metrics in summary.csv. Tables of sweeps

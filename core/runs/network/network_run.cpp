@@ -319,7 +319,7 @@ NetworkResult run_network(const Scenario& scenario, std::size_t population,
     result.delays.refused_stop_s = simulation.model().time_s(result.delays.refusal_ticks);
     result.gap_counts = state.records.gap_counts;
     result.violations = state.records.violations;
-    result.v2v = v2v_result(state.records);
+    result.v2v = v2v_result(state.records, model.v2v_plan);
     result.longest_in_junction_s = model.time_s(state.records.longest_in_junction);
     result.vehicles_present = sampler.mean_present(result.measured.window);
     result.max_present = sampler.max_present();

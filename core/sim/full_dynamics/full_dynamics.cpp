@@ -39,6 +39,7 @@ FullStreams streams_of(const Model& model, State& state) {
     s.closing_now = v.radar_closing_mps.data() + radar.now;
     s.closing_delayed = v.radar_closing_mps.data() + radar.delayed;
     s.closing_older = v.radar_closing_mps.data() + radar.older;
+    if (v.has_v2v_channel) return s;
     s.sent_acceleration = v.v2v_acceleration_mps2.data() + v2v.now;
     s.sent_request = v.v2v_request_mps2.data() + v2v.now;
     s.sent_rate = v.v2v_rate_1ps.data() + v2v.now;
@@ -126,7 +127,7 @@ void step_full(const Model& model, const FullTables& tables, const LaneGroup& la
                       k == 0 ? next : std::span<const int>());
     }
     kernels.scatter(streams, lanes.lanes, group, model.step_s);
-    if (state.vehicles.has_v2v_channel) send_messages(model, kernels, lanes, state, part);
+    if (state.vehicles.has_v2v_channel) send_messages(model, lanes.lanes, group, state, part);
     const std::int64_t count = count_overlaps(state.vehicles, lanes.lanes);
     if (count > 0) record_first_overlap(model, state, part);
     part.violations.overlaps += count;

@@ -20,7 +20,7 @@ struct FullStreams {
     float *acceleration, *lag, *request, *is_platoon_leader, *torque, *brake, *gear_time, *gear;
     // Rows that store the radar and V2V samples of the present and previous steps (DelayRows). The kernels write the
     // samples of this step into the rows `..._now` and `sent_...`. They read delayed samples from `..._delayed`,
-    // `..._older` and `heard_...`.
+    // `..._older` and `heard_...`. The V2V rows are null with an active V2V channel, which stores messages itself.
     float *gap_now, *closing_now, *sent_acceleration, *sent_request, *sent_rate;
     const float *gap_delayed, *gap_older, *closing_delayed, *closing_older;
     const float *heard_acceleration, *heard_request, *heard_rate;
@@ -40,13 +40,11 @@ struct FullKernels {
     // and hidden leaders demand of the vehicle (LaneGroup::demands).
     void (*gather)(const FullStreams&, const DelayRows& radar, const DelayRows& v2v, const LaneGroup&, double dt,
                    const FullGroup&);
-    // The receive phase of V2V (receive_messages.h). `list_due` stores the own speeds, and lists the vehicles that have
-    // another leader than in the step before, or for which a message is due. It returns the number of these vehicles.
-    // `receive` updates the driving modes, and writes what the vehicles know about their leaders into the group.
-    // `list_senders` lists the vehicles that send in this step, and returns their number.
-    int (*list_due)(const ReceiveStreams&, Lanes, int tick, const FullGroup&, DueReceiver* due);
+    // The receive phase of V2V (receive_messages.h). `list_due` stores the own speeds, and lists the vehicles that the
+    // receive phase must treat and those that send in this step (ReceiveWork). `receive` writes what the vehicles know
+    // about their leaders into the group.
+    void (*list_due)(const ReceiveStreams&, Lanes, int tick, const FullGroup&, const ReceiveLists&);
     void (*receive)(const ReceiveStep&, const ReceiveStreams&, Lanes, const FullGroup&, ReceiveResults&);
-    int (*list_senders)(const int* send_tick, Lanes, int tick, DueReceiver* senders);
     // Driver: computes the requested accelerations of the first `vehicles` vehicles of the group. `only`: index of the
     // driver to which the tables belong. Vehicles with other drivers stay unchanged. If `only` is below 0, the tables
     // apply to all vehicles.

@@ -43,9 +43,11 @@ STOPLINE_INLINE void gather_at(const FullStreams& s, const DelayRows& radar, con
     // Delayed data about the leader.
     store(g.gap + k, delayed<R>(radar, s.gap_delayed, s.gap_older, i));
     store(g.closing + k, delayed<R>(radar, s.closing_delayed, s.closing_older, i));
-    store(g.heard_acceleration + k, delayed<R>(v2v, s.heard_acceleration, s.heard_acceleration_older, i - 1));
-    store(g.heard_request + k, delayed<R>(v2v, s.heard_request, s.heard_request_older, i - 1));
-    store(g.heard_rate + k, delayed<R>(v2v, s.heard_rate, s.heard_rate_older, i - 1));
+    if (s.heard_acceleration != nullptr) {
+        store(g.heard_acceleration + k, delayed<R>(v2v, s.heard_acceleration, s.heard_acceleration_older, i - 1));
+        store(g.heard_request + k, delayed<R>(v2v, s.heard_request, s.heard_request_older, i - 1));
+        store(g.heard_rate + k, delayed<R>(v2v, s.heard_rate, s.heard_rate_older, i - 1));
+    }
     // Data of the lane.
     store(g.to_next_limit + k, load_difference<R>(lane.next_limit_m, s.position + i));
     store(g.limit + k, splat<R>(lane.limit_mps));
@@ -108,9 +110,11 @@ public:
     STOPLINE_INLINE void prefetch_vehicle_data(int k) const {
         for_each_slot(k, [&](int i) STOPLINE_INLINE_LAMBDA {
             const FullStreams& s = streams_;
-            prefetch_lines(i, s.acceleration, s.lag, s.request, s.torque, s.brake, s.gear_time, s.gear,
-                           s.sent_acceleration, s.sent_request, s.sent_rate, s.heard_acceleration, s.heard_request,
-                           s.heard_rate);
+            prefetch_lines(i, s.acceleration, s.lag, s.request, s.torque, s.brake, s.gear_time, s.gear);
+            if (s.sent_request != nullptr) {
+                prefetch_lines(i, s.sent_acceleration, s.sent_request, s.sent_rate, s.heard_acceleration,
+                               s.heard_request, s.heard_rate);
+            }
             if (s.policy != nullptr) prefetch_lines(i, s.policy);
             if (s.type != nullptr) prefetch_lines(i, s.type);
         });
@@ -334,8 +338,10 @@ void scatter(const FullStreams& streams, FullKernels::Lanes lanes, const FullGro
             copy(g.request, s.request), copy(g.is_platoon_leader, s.is_platoon_leader),
                 copy(g.acceleration, s.acceleration);
             copy(g.torque, s.torque), copy(g.brake, s.brake), copy(g.gear_time, s.gear_time);
-            copy(g.lag, s.lag), copy(g.gear, s.gear), copy(g.sent_request, s.sent_request);
-            copy(g.sent_acceleration, s.sent_acceleration), copy(g.sent_rate, s.sent_rate);
+            copy(g.lag, s.lag), copy(g.gear, s.gear);
+            if (s.sent_request == nullptr) return;
+            copy(g.sent_request, s.sent_request), copy(g.sent_acceleration, s.sent_acceleration);
+            copy(g.sent_rate, s.sent_rate);
         });
         // Speed and position follow from the acceleration that the powertrain realised in the step.
         for (int i = lane.begin; i < lane.stop; ++i) {
@@ -350,7 +356,7 @@ void scatter(const FullStreams& streams, FullKernels::Lanes lanes, const FullGro
 
 template <class R>
 constexpr FullKernels kernels_of(const char* name) {
-    return {name, gather<R>, list_due<R>, receive<R>, list_senders<R>, plan<R>, plan_human<R>, drive<R>, scatter<R>};
+    return {name, gather<R>, list_due<R>, receive<R>, plan<R>, plan_human<R>, drive<R>, scatter<R>};
 }
 
 }  // namespace

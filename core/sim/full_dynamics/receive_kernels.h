@@ -13,10 +13,9 @@ namespace stopline {
 
 // Plain pointers to the arrays of all vehicles (V2vReceivers), indexed by slot.
 struct ReceiveStreams {
-    const int *id, *sender, *due_tick, *sent_tick;
+    const int *id, *sender, *due_tick, *send_tick, *sent_tick, *mode;
     const float *acceleration, *request, *rate;
     float *leader_speed, *leader_acceleration;
-    int *mode, *worst_mode, *mode_since_tick;
     float *time_gap, *time_gap_rate;
     float* own_speed_now;            // row of this step
     const float* own_speed_delayed;  // row of the radar measurement
@@ -36,9 +35,7 @@ struct ReceiveStep {
     int tick = 0;
     double step_s = 0.0;
     double delay_ticks = 0.0;
-    double hysteresis_ticks = 0.0;
-    std::array<double, 3> longest_age_ticks{};  // [mode]
-    std::span<const double> stable_time_gap_s;  // [age in ticks]
+    std::span<const float> stable_time_gap_s;  // [age in ticks]
     double radar_time_gap_s = 0.0;
     double acc_time_gap_s = 0.0;
     double platoon_time_gap_s = 0.0;
@@ -46,10 +43,14 @@ struct ReceiveStep {
     std::span<const ReceivePolicy> policies;
 };
 
-// The kernels write the results of a lane group here. The arrays have room for all vehicles of the group.
+// The lists of a lane group (ReceiveWork). Each list has room for the vehicles of the group and kSimdWidth more.
+struct ReceiveLists {
+    int *due, *due_end;
+    int *senders, *senders_end;
+};
+
+// Numbers of vehicles with a leader in the driving modes, and the platoons of a lane group.
 struct ReceiveResults {
-    V2vModeStep* mode_changes = nullptr;
-    int changes = 0;
     std::array<std::int64_t, kV2vModes> mode_steps{};
     const float* mini_leader =
         nullptr;  // [place] 1: the vehicle leads a mini-platoon; null: there are no mini-platoons

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstdint>
 #include <cstring>
 
@@ -26,18 +28,6 @@ STOPLINE_INLINE R ticks_since(int tick, const int* before) {
     }
 }
 
-// Writes whole numbers. Adds `base` to each number.
-template <class R>
-STOPLINE_INLINE void store_whole(int* to, const R& value, int base = 0) {
-    constexpr int kWidth = kWidthOf<R>;
-    if constexpr (kWidth == 1) {
-        *to = base + static_cast<int>(value.v);
-    } else {
-        const auto numbers = base + __builtin_convertvector(value.v, Vector<std::int32_t, kWidth>);
-        std::memcpy(to, &numbers, sizeof numbers);
-    }
-}
-
 template <class R>
 STOPLINE_INLINE void store_wide(double* to, const R& value) {
     constexpr int kWidth = kWidthOf<R>;
@@ -49,30 +39,28 @@ STOPLINE_INLINE void store_wide(double* to, const R& value) {
     }
 }
 
+// Returns table[index] for each element of `index`, which must hold whole numbers. Precondition: the number of entries
+// is a multiple of kSimdWidth. look_up() is for short tables.
 template <class R>
-STOPLINE_INLINE float element(const R& value, int k) {
-    if constexpr (kWidthOf<R> == 1) {
-        return value.v;
+STOPLINE_INLINE R look_up_long(std::span<const float> table, const R& index) {
+    constexpr int kWidth = kWidthOf<R>;
+    if constexpr (kWidth == 1) {
+        return packed<1>(table[static_cast<std::size_t>(index.v)]);
     } else {
-        return value.v[k];
+        const auto k = __builtin_convertvector(index.v, Vector<std::int32_t, kWidth>);
+        Vector<float, kWidth> found{};
+#if defined(__AVX2__) && !defined(__clang__)
+        // A permutation takes indices modulo kWidth.
+        for (std::size_t from = 0; from < table.size(); from += kWidth) {
+            const auto entries = packed_details::read<Vector<float, kWidth>>(table.data() + from);
+            found = k >= static_cast<std::int32_t>(from) ? __builtin_shuffle(entries, k) : found;
+        }
+#else
+        for (int n = 0; n < kWidth; ++n) found[n] = table[static_cast<std::size_t>(k[n])];
+#endif
+        return packed<kWidth>(found);
     }
 }
-
-template <class R>
-STOPLINE_INLINE void set_element(R& value, int k, double number) {
-    if constexpr (kWidthOf<R> == 1) {
-        value.v = static_cast<float>(number);
-    } else {
-        value.v[k] = static_cast<float>(number);
-    }
-}
-
-// Numbers of vehicles in the driving modes.
-template <class R>
-struct ModeCounts {
-    R all = splat<R>(0.0);  // vehicles in all modes
-    std::array<R, kV2vModes> in_mode{};
-};
 
 // A batch of vehicles in the receive phase.
 template <class R>
@@ -91,11 +79,10 @@ public:
         closing_ = of_place(g_.closing);
     }
 
-    STOPLINE_INLINE void receive(ReceiveResults& results, ModeCounts<R>& counts) {
+    STOPLINE_INLINE void receive(ReceiveResults& results) {
         estimate_leader();
         const R age = ticks_since<R>(step_.tick, s_.sent_tick + i_);
-        counts.all += has_leader_;
-        update_modes(age, results, counts);
+        count_modes(results);
         hear(age);
         update_gap(age, results.mini_leader);
         keep_gap();
@@ -146,33 +133,18 @@ private:
         seen_ = estimate.acceleration_mps2;
     }
 
-    // Updates the driving modes, and records changes. Most batches have only vehicles with recent messages.
-    STOPLINE_INLINE void update_modes(const R& age, ReceiveResults& results, ModeCounts<R>& counts) {
-        const auto older_than = [&](std::size_t mode) STOPLINE_INLINE_LAMBDA {
-            return STOPLINE_FLAG(R, age > splat<R>(step_.longest_age_ticks[mode]));
-        };
+    // Counts the vehicles in the driving modes. Most batches have only vehicles with recent messages.
+    STOPLINE_INLINE void count_modes(ReceiveResults& results) {
         mode_ = of_slot(s_.mode);
-        const R is_old = older_than(0);
-        misses_ = any(has_leader_ * max_of(is_old, mode_));
+        const std::uint32_t with_leader = bits_of(has_leader_);
+        results.mode_steps[0] += std::popcount(with_leader);
+        misses_ = any(R(has_leader_ * mode_));
         if (!misses_) return;
-        const R demanded = is_old + older_than(1) + older_than(2);
-        FallbackModeOf<R> fallback{mode_, of_slot(s_.worst_mode), ticks_since<R>(step_.tick, s_.mode_since_tick + i_)};
-        const R changes = has_leader_ * update_mode(fallback, demanded, step_.hysteresis_ticks);
-        if (any(changes)) {
-            for (int n = 0; n < kWidthOf<R>; ++n) {
-                if (element(changes, n) == 0.0F) continue;
-                results.mode_changes[results.changes++] = {i_ + n, k_ + n, static_cast<int>(element(mode_, n)),
-                                                           static_cast<int>(element(fallback.mode, n))};
-            }
-        }
-        mode_ = choose(has_leader_, fallback.mode, mode_);
-        store_whole(s_.mode + i_, mode_);
-        store_whole(s_.worst_mode + i_, choose(has_leader_, fallback.worst, of_slot(s_.worst_mode)));
-        store_whole(s_.mode_since_tick + i_,
-                    choose(has_leader_, R(-fallback.ticks), R(-ticks_since<R>(step_.tick, s_.mode_since_tick + i_))),
-                    step_.tick);
-        for (std::size_t mode = 1; mode < kV2vModes; ++mode) {
-            counts.in_mode[mode] += has_leader_ * STOPLINE_FLAG(R, mode_ == splat<R>(static_cast<double>(mode)));
+        for (std::size_t mode = 1; mode <= kLongestAge_s.size(); ++mode) {
+            const R is_in = STOPLINE_FLAG(R, mode_ == splat<R>(static_cast<double>(mode)));
+            const int vehicles = std::popcount(bits_of(is_in) & with_leader);
+            results.mode_steps[mode] += vehicles;
+            results.mode_steps[0] -= vehicles;
         }
     }
 
@@ -203,9 +175,10 @@ private:
         request = choose(brakes, seen_, request);
         rate = choose(max_of(by_radar, brakes), splat<R>(1.0), rate);  // without effect: request and acceleration agree
         heard_ = acceleration;
-        set_place(g_.heard_acceleration, has_leader_, acceleration);
-        set_place(g_.heard_request, has_leader_, request);
-        set_place(g_.heard_rate, has_leader_, rate);
+        // A vehicle without a leader hears nothing. The elements after the last vehicle of the lane are set later.
+        store(g_.heard_acceleration + k_, choose(has_leader_, acceleration, zero));
+        store(g_.heard_request + k_, choose(has_leader_, request, zero));
+        store(g_.heard_rate + k_, choose(has_leader_, rate, splat<R>(1.0)));
     }
 
     // Returns the time gaps that the modes demand.
@@ -218,12 +191,8 @@ private:
         const R has_old = has_leader_ * in_mode(V2vMode::old_messages);
         if (any(has_old)) {
             const auto last = static_cast<double>(step_.stable_time_gap_s.size() - 1);
-            R stable = splat<R>(0.0);
-            for (int n = 0; n < kWidthOf<R>; ++n) {
-                const double ticks = std::clamp(static_cast<double>(element(age, n)), 0.0, last);
-                set_element(stable, n, step_.stable_time_gap_s[static_cast<std::size_t>(ticks)]);
-            }
-            target = choose(has_old, stable, target);
+            const R ticks = clamped(age, splat<R>(0.0), splat<R>(last));
+            target = choose(has_old, look_up_long(step_.stable_time_gap_s, ticks), target);
         }
         return has_leader_ * target;
     }
@@ -315,61 +284,61 @@ private:
 constexpr int kListBlock = 16;  // number of slots that are tested at once
 using ListBlock = Vector<std::int32_t, kListBlock>;
 
-// Lists the vehicles of a lane. `is_listed(slot)`: tests a block of slots, and returns -1 for each vehicle that belongs
-// to the list, else 0. `place`: place of the first vehicle in the group. Returns the end of the list.
-template <class IsListed>
-STOPLINE_INLINE DueReceiver* list_of_lane(const LaneStep& slots, int place, int lane, DueReceiver* list,
-                                          IsListed is_listed) {
-    for (int i = slots.begin; i < slots.stop; i += kListBlock) {
-        const auto bytes = __builtin_convertvector(is_listed(i), Vector<std::int8_t, kListBlock>);
-        std::array<std::uint64_t, 2> halves{};
-        std::memcpy(halves.data(), &bytes, sizeof bytes);
-        for (int half = 0; half < 2; ++half) {
-            for (std::uint64_t flags = halves[static_cast<std::size_t>(half)]; flags != 0;) {
-                const int byte = __builtin_ctzll(flags) / 8;
-                flags &= ~(std::uint64_t{0xFF} << (8 * byte));
-                const int slot = i + 8 * half + byte;
-                if (slot < slots.stop) *list++ = {slot, place + slot - slots.begin, lane};
-            }
-        }
+// Appends those of `count` slots from `slot` on whose flag is -1 to a list, and returns the end of the list. Writes up
+// to kListBlock numbers.
+STOPLINE_INLINE int* append_slots(int* list, int slot, int count, const ListBlock& flags) {
+#if defined(__AVX512F__)
+    __m512i numbers;
+    std::memcpy(&numbers, &flags, sizeof numbers);
+    const auto all = static_cast<__mmask16>(count < kListBlock ? (1U << static_cast<unsigned>(count)) - 1U : 0xFFFFU);
+    const __mmask16 mask = _mm512_mask_test_epi32_mask(all, numbers, numbers);
+    const __m512i first = _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0);
+    const __m512i slots = _mm512_add_epi32(first, _mm512_set1_epi32(slot));
+    _mm512_storeu_si512(list, _mm512_maskz_compress_epi32(mask, slots));
+    return list + std::popcount(static_cast<unsigned>(mask));
+#else
+    std::array<std::int32_t, kListBlock> numbers{};
+    std::memcpy(numbers.data(), &flags, sizeof flags);
+    for (int k = 0; k < std::min(count, kListBlock); ++k) {
+        *list = slot + k;
+        list -= numbers[static_cast<std::size_t>(k)];
     }
     return list;
+#endif
 }
 
-// Stores the own speeds. Lists the vehicles that have another leader than in the step before, or for which a message is
-// due. Returns the number of these vehicles.
+// Stores the own speeds, and lists the vehicles that the receive phase must treat and those that send (ReceiveWork).
 template <class R>
-int list_due(const ReceiveStreams& streams, FullKernels::Lanes lanes, int tick, const FullGroup& group,
-             DueReceiver* due) {
+void list_due(const ReceiveStreams& streams, FullKernels::Lanes lanes, int tick, const FullGroup& group,
+              const ReceiveLists& lists) {
     using packed_details::read;
     const ReceiveStreams s = streams;
-    DueReceiver* end = due;
-    int place = 0;
-    for (int lane = 0; lane < static_cast<int>(lanes.size()); ++lane) {
-        const LaneStep& slots = lanes[static_cast<std::size_t>(lane)];
-        std::memcpy(s.own_speed_now + slots.begin, group.speed + place,
-                    static_cast<std::size_t>(slots.count()) * sizeof(float));
-        end = list_of_lane(slots, place, lane, end, [&](int i) STOPLINE_INLINE_LAMBDA -> ListBlock {
-            return (read<ListBlock>(s.id + i - 1) != read<ListBlock>(s.sender + i)) |
-                   (read<ListBlock>(s.due_tick + i) <= tick);
-        });
-        place += slots.count();
+    const ReceiveLists to = lists;
+    int* due = to.due;
+    int* senders = to.senders;
+    const float* speed = group.speed;
+    for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
+        const LaneStep& slots = lanes[lane];
+        for (int i = slots.begin; i < slots.stop; i += kListBlock) {
+            const int count = slots.stop - i;
+            // The kernel `receive` reads these arrays next.
+            for (const float* array : {s.acceleration, s.request, s.rate, s.own_speed_delayed}) {
+                __builtin_prefetch(array + i);
+            }
+            for (const int* array : {s.sent_tick, s.mode}) __builtin_prefetch(array + i);
+            for (const float* array : {s.leader_speed, s.leader_acceleration, s.time_gap, s.time_gap_rate}) {
+                __builtin_prefetch(array + i, 1);
+            }
+            std::memcpy(s.own_speed_now + i, speed + i - slots.begin, kListBlock * sizeof(float));
+            due = append_slots(due, i, count,
+                               ListBlock((read<ListBlock>(s.id + i - 1) != read<ListBlock>(s.sender + i)) |
+                                         (read<ListBlock>(s.due_tick + i) <= tick)));
+            senders = append_slots(senders, i, count, ListBlock(read<ListBlock>(s.send_tick + i) <= tick));
+        }
+        to.due_end[lane] = static_cast<int>(due - to.due);
+        to.senders_end[lane] = static_cast<int>(senders - to.senders);
+        speed += slots.count();
     }
-    return static_cast<int>(end - due);
-}
-
-template <class R>
-int list_senders(const int* send_tick, FullKernels::Lanes lanes, int tick, DueReceiver* senders) {
-    DueReceiver* end = senders;
-    int place = 0;
-    for (int lane = 0; lane < static_cast<int>(lanes.size()); ++lane) {
-        const LaneStep& slots = lanes[static_cast<std::size_t>(lane)];
-        end = list_of_lane(slots, place, lane, end, [&](int i) STOPLINE_INLINE_LAMBDA -> ListBlock {
-            return packed_details::read<ListBlock>(send_tick + i) <= tick;
-        });
-        place += slots.count();
-    }
-    return static_cast<int>(end - senders);
 }
 
 template <class R>
@@ -379,23 +348,13 @@ void receive(const ReceiveStep& common, const ReceiveStreams& streams, FullKerne
     const ReceiveStreams s = streams;
     const FullGroup g = group;
     ReceiveResults results = all_results;
-    ModeCounts<R> counts;
-    for (R& count : counts.in_mode) count = splat<R>(0.0);
     int place = 0;
     for (const LaneStep& lane : lanes) {
         for (int i = lane.begin; i < lane.stop; i += kWidthOf<R>) {
             ReceiveBatch<R> batch(step, s, g, i, place + i - lane.begin, lane.stop - i);
-            batch.receive(results, counts);
+            batch.receive(results);
         }
         place += lane.count();
-    }
-    for (int n = 0; n < kWidthOf<R>; ++n) {
-        results.mode_steps[0] += static_cast<std::int64_t>(element(counts.all, n));
-        for (std::size_t mode = 1; mode < kV2vModes; ++mode) {
-            const auto steps = static_cast<std::int64_t>(element(counts.in_mode[mode], n));
-            results.mode_steps[mode] += steps;
-            results.mode_steps[0] -= steps;
-        }
     }
     all_results = results;
 }

@@ -22,9 +22,10 @@ void receive_messages(const Model& model, const FullKernels& kernels, std::span<
                       const LaneGroup& lanes, std::span<const int> next, const FullGroup& group, State& state,
                       Partition& part);
 
-// Stores the messages of the vehicles that send in this step. Call after the motion of the vehicles. Same precondition.
-void send_messages(const Model& model, const FullKernels& kernels, const LaneGroup& lanes, State& state,
-                   Partition& part);
+// Stores the messages of the vehicles that send in this step, which receive_messages() has listed. Call after the
+// motion of the vehicles. Same precondition.
+void send_messages(const Model& model, std::span<const LaneStep> lanes, const FullGroup& group, State& state,
+                   const Partition& part);
 
 // Returns the values that the vehicles of each policy share in the receive phase. Same precondition.
 std::vector<ReceivePolicy> receive_policies(const Model& model);

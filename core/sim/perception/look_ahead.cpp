@@ -276,9 +276,11 @@ void find_leaders_beyond_lanes(const Model& model, const State& state, VehicleAr
                 {model.time_s(state.tick), Violation::Kind::overlap, lane, v.id[at(head)], v.id[leader_slot]});
         }
         if (v.has_powertrain()) {
-            copy_v2v(state.v2v, v, sentinel, leader_slot, has_leader);
-            if (v.has_v2v_channel)
+            if (v.has_v2v_channel) {
                 copy_platoon(model.v2v_plan.uses_platoon_leader, v, sentinel, leader_slot, ahead.slot);
+            } else {
+                copy_v2v(state.v2v, v, sentinel, leader_slot, has_leader);
+            }
             react_to_hidden_leaders(model, state, lane, hidden, part);
         }
         if (v.has_platoon_limit) v.platoon.place[sentinel] = has_leader ? v.platoon.place[leader_slot] : kNoPlatoon;

@@ -58,7 +58,7 @@ struct V2vModeChange {
     float gap_m;  // net gap
     float speed_mps;
 };
-inline constexpr std::size_t kV2vModes = 4;
+inline constexpr std::size_t kV2vModes = 5;
 
 // One observed violation of an invariant.
 struct Violation {

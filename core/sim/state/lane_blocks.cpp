@@ -123,7 +123,8 @@ void allocate_lane_blocks(const Model& model, State& state) {
         append(state.congestion.teleporting, rounded_up(64 + lanes));
     }
     slots = rounded_up(slots) + kSimdWidth;  // the last batch of a block can reach beyond the block's end
-    state.vehicles.resize(slots, model.radar.rows, model.v2v.rows);
+    // With an active channel, senders store their messages (V2vReceivers::sent) instead of the samples of all steps.
+    state.vehicles.resize(slots, model.radar.rows, model.v2v_plan.is_active ? 1 : model.v2v.rows);
 }
 
 void reserve_blocks(State& state, const std::vector<int>& expected) {

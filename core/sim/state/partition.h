@@ -110,8 +110,9 @@ struct Partition {
     std::vector<V2vModeChange> v2v_mode_changes;
     std::array<std::int64_t, kV2vModes> v2v_mode_steps{};
 
-    // Full dynamics: lanes are added to a lane group until the group has at least this many vehicles.
-    static constexpr int kGroupVehicles = 128;
+    // Full dynamics: lanes are added to a lane group until the group has at least this many vehicles. The receive phase
+    // of V2V has costs for each group that large groups share.
+    static constexpr int group_vehicles(bool has_v2v_channel) { return has_v2v_channel ? 256 : 128; }
     std::array<LaneGroup, 2> groups;  // the group that the kernels compute, and the next one
     FullGroupArrays full_group;
     ReceiveWork receive_work;

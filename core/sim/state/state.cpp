@@ -72,10 +72,10 @@ std::vector<Partition> make_partitions(const Model& model, const State& state, i
         if (!is_exit[at(exit)]) part.exits.push_back(exit);
         is_exit[at(exit)] = true;
     }
-    // Lanes are added to a lane group until the group has kGroupVehicles vehicles. The lane added last can make the
+    // Lanes are added to a lane group until the group has group_vehicles() vehicles. The lane added last can make the
     // group larger by as many vehicles as fit on this lane.
-    const int group_vehicles =
-        Partition::kGroupVehicles + static_cast<int>(longest_m / shortest_vehicle_m(model)) + 2 * kSimdWidth;
+    const int group_vehicles = Partition::group_vehicles(model.v2v_plan.is_active) +
+                               static_cast<int>(longest_m / shortest_vehicle_m(model)) + 2 * kSimdWidth;
     for (Partition& part : partitions) {
         part.full_group.resize(model.meso ? 0 : group_vehicles);
     }

@@ -60,11 +60,12 @@ void add_lane(const Model& model, const State& state, int lane, std::span<const 
 }
 
 // Clears a group and fills it with occupied lanes, starting with the k-th occupied lane, until the group has at least
-// kGroupVehicles vehicles or no lane is left. Advances k to the first lane after the group.
+// group_vehicles() vehicles or no lane is left. Advances k to the first lane after the group.
 void collect_group(const Model& model, const State& state, const Partition& part, std::size_t& k,
                    std::span<const BrakingDemand>& hidden_leader_demands, LaneGroup& group) {
     group.clear();
-    for (; k < part.occupied.size() && group.vehicles < Partition::kGroupVehicles; ++k) {
+    const int most = Partition::group_vehicles(state.vehicles.has_v2v_channel);
+    for (; k < part.occupied.size() && group.vehicles < most; ++k) {
         add_lane(model, state, part.occupied[k], hidden_leader_demands, group);
     }
 }
@@ -74,7 +75,10 @@ void collect_group(const Model& model, const State& state, const Partition& part
 void step_full_groups(const Model& model, const FullTables& tables, State& state, Partition& part) {
     LaneGroup& group = part.groups[0];
     LaneGroup& next = part.groups[1];
-    const bool prefetch = state.outgrows_cache();
+    // With a V2V channel, a vehicle has more data, so fewer vehicles fill the second-level cache.
+    constexpr int kFillCacheWithChannel = 1000;
+    const bool prefetch =
+        state.outgrows_cache() || (state.vehicles.has_v2v_channel && state.present() > kFillCacheWithChannel);
     std::size_t k = 0;
     std::span<const BrakingDemand> hidden_leader_demands = part.extra_demands;
     collect_group(model, state, part, k, hidden_leader_demands, group);

@@ -132,7 +132,9 @@ void Simulation::step() {
 
 void Simulation::step(bool use_threads) {
     state_.radar = delay_rows_at(model_.radar, state_.tick, state_.vehicles.slots);
-    state_.v2v = delay_rows_at(model_.v2v, state_.tick, state_.vehicles.slots);
+    if (!state_.vehicles.has_v2v_channel) {
+        state_.v2v = delay_rows_at(model_.v2v, state_.tick, state_.vehicles.slots);
+    }
     update_phase_priorities(model_, state_);
     measure_density(model_, state_);
     if (!use_threads) {

@@ -102,6 +102,14 @@ if [ "$(id -u)" -ne 0 ]; then
     refused "unreadable file" "cannot be opened" -- "$work/secret.yaml"
 fi
 
+{
+    cat "$good"
+    printf '\ndriver:\n  base: startup_kit\n  v2v:\n    channel: delivery_over_distance\n    delivery: nowhere\n'
+} >"$work/delivery.yaml"
+line=$(grep -n 'delivery: nowhere' "$work/delivery.yaml" | cut -d: -f1)
+refused "missing delivery file" "delivery.yaml:$line" "'driver.v2v.delivery'" "there is no 'nowhere'" \
+    "known: cv2x_2_subchannels" -- "$work/delivery.yaml"
+
 refused "override without unit" "--set 'signal.green=20'" "'signal.green'" "20 s" -- "$good" --set signal.green=20
 refused "override of an unknown field" "did you mean 'green'" -- "$good" --set 'signal.gren=20 s'
 refused "override without value" "path=value" -- "$good" --set signal.green

@@ -183,6 +183,70 @@ TEST(Platoons, NobodyClosesUpToALeaderThatHasNotHeardOfTheStart) {
     EXPECT_GT(mode_changes, 100U) << "no losses";
 }
 
+// Returns a platoon of ten vehicles in motion with V2V settings.
+Track moving_platoon(const std::string& v2v) {
+    TrackPlan plan = platoon_plan({"driver.v2v=" + v2v});
+    plan.length_m = 2000.0;
+    Track track(plan);
+    track.place_platoon(0, 500.0, kLimit_mps, 9);
+    return track;
+}
+
+TEST(Platoons, DrivingWithThePlatoonLeaderIsAMode) {
+    constexpr int kPlatoonLeader = static_cast<int>(V2vMode::platoon_leader);
+    constexpr int kLongestAge_ticks = 15;
+    Track track = moving_platoon("{channel: gilbert, loss: 10 %, burst: 4, topology: predecessor_and_leader}");
+    std::int64_t steps = 0;
+    while (track.time_s() < 60.0) {
+        track.step();
+        for (int k = 1; k < track.count(0); ++k) {
+            const V2vReceiver& receiver = receiver_of(track, 0, k);
+            if (receiver.driving_mode != V2vMode::platoon_leader) continue;
+            ++steps;
+            ASSERT_LE(track.state().tick - 1 - receiver.platoon_message.sent_tick, kLongestAge_ticks);
+        }
+    }
+    const RunRecords& records = track.state().records;
+    EXPECT_EQ(records.v2v_mode_steps[kPlatoonLeader], steps);
+    EXPECT_GT(steps, 10'000);
+    std::vector<int> mode(10, static_cast<int>(V2vMode::messages));
+    int begins = 0;
+    int ends = 0;
+    for (const V2vModeChange& change : records.v2v_mode_changes) {
+        int& present = mode[static_cast<std::size_t>(change.vehicle - track.vehicle(0, 0).id)];
+        EXPECT_EQ(change.from_mode, present);
+        EXPECT_NE(change.to_mode, present);
+        present = change.to_mode;
+        begins += change.to_mode == kPlatoonLeader ? 1 : 0;
+        ends += change.from_mode == kPlatoonLeader ? 1 : 0;
+    }
+    EXPECT_GT(begins, 20);
+    EXPECT_GT(ends, 20);
+    for (int k = 1; k < track.count(0); ++k) {
+        EXPECT_EQ(static_cast<int>(receiver_of(track, 0, k).driving_mode), mode[static_cast<std::size_t>(k)]);
+    }
+}
+
+TEST(Platoons, AllFollowersDriveWithThePlatoonLeaderIfNoMessageIsLost) {
+    Track track = moving_platoon("{interval: 100 ms, topology: predecessor_and_leader}");
+    track.run(20.0);
+    for (int k = 1; k < track.count(0); ++k) {
+        EXPECT_EQ(receiver_of(track, 0, k).driving_mode, V2vMode::platoon_leader);
+    }
+}
+
+TEST(Platoons, WithTheTopologyPredecessorNobodyDrivesWithThePlatoonLeader) {
+    constexpr std::size_t kPlatoonLeader = static_cast<std::size_t>(V2vMode::platoon_leader);
+    Track track = moving_platoon("{channel: gilbert, loss: 30 %, burst: 10}");
+    track.run(60.0);
+    const RunRecords& records = track.state().records;
+    EXPECT_EQ(records.v2v_mode_steps[kPlatoonLeader], 0);
+    EXPECT_GT(records.v2v_mode_changes.size(), 10U);
+    for (const V2vModeChange& change : records.v2v_mode_changes) {
+        EXPECT_NE(change.to_mode, static_cast<int>(kPlatoonLeader));
+    }
+}
+
 TEST(Platoons, ErrorsDoNotGrowWithThePlatoonLeader) {
     constexpr int kFollowers = 42;
     for (const char* delay : {"20 ms", "50 ms", "100 ms"}) {

@@ -85,8 +85,11 @@ TEST(ReceiveMessages, LossesLeadThroughAllModesAndBack) {
             EXPECT_GT(change.age_s, kLongestAge_s[at(change.to_mode - 1)]);
         }
     }
-    for (const int count : entered) EXPECT_GT(count, 5);
-    for (const std::int64_t steps : records.v2v_mode_steps) EXPECT_GT(steps, 100);
+    for (std::size_t mode = 0; mode < kV2vModes; ++mode) {
+        const bool has_mode = mode != static_cast<std::size_t>(V2vMode::platoon_leader);
+        EXPECT_EQ(entered[mode] > 5, has_mode) << kV2vModeNames[mode];
+        EXPECT_EQ(records.v2v_mode_steps[mode] > 100, has_mode) << kV2vModeNames[mode];
+    }
 }
 
 TEST(ReceiveMessages, AVehicleBehindAHumanDriverUsesAcc) {

@@ -24,33 +24,23 @@ struct ExternalDemand {
     double acceleration_mps2 = 0.0;
 };
 
-// A vehicle whose leader has changed, or for which a V2V message is due.
-struct DueReceiver {
-    int slot = 0;
-    int place = 0;  // index of the vehicle in the group
-    int lane = 0;   // index in LaneGroup::lanes
-};
-
-// A change of the driving mode of a vehicle (v2v/fallback.h).
-struct V2vModeStep {
-    int slot = 0;
-    int place = 0;  // index of the vehicle in the group
-    int from_mode = 0;
-    int to_mode = 0;
-};
-
-// The working memory of the receive phase for one lane group. Each array has one value for each vehicle of the group.
+// The working memory of the receive phase for one lane group.
 struct ReceiveWork {
-    std::vector<DueReceiver> due;
-    std::vector<V2vModeStep> mode_changes;
-    // Runs with platoons only.
+    // The slots of the vehicles that the receive phase must treat in this step: those that have another leader, for
+    // which a message is due, or whose driving mode can change. Ascending.
+    std::vector<int> due;
+    std::vector<int> due_end;  // [lane of the group] index in `due` after the last vehicle of the lane
+    // The slots of the vehicles that send a message in this step.
+    std::vector<int> senders;
+    std::vector<int> senders_end;
+    // Runs with platoons only. One value for each vehicle of the group.
     std::vector<float> mini_leader;    // 1: the vehicle leads a mini-platoon
     std::vector<char> keeps_distance;  // 1: the spacing policy keeps a constant distance at this speed
 
     void reserve(std::size_t vehicles) {
         if (due.size() >= vehicles) return;
-        due.resize(vehicles), mode_changes.resize(vehicles), mini_leader.resize(vehicles);
-        keeps_distance.resize(vehicles);
+        due.resize(vehicles), due_end.resize(vehicles), senders.resize(vehicles), senders_end.resize(vehicles);
+        mini_leader.resize(vehicles), keeps_distance.resize(vehicles);
     }
 };
 
