@@ -55,6 +55,33 @@ std::string ticks_of(const std::vector<double>& values) {
     return fmt::format("({})", fmt::join(ticks, ", "));
 }
 
+// Distance between the points of neighbouring populations over an axis of texts. All points of a text are together less
+// than 0.5 wide.
+double population_shift(const SweepPlanes& all, std::size_t population) {
+    if (all.x_axis.has_numbers()) return 0.0;
+    const double middle = 0.5 * static_cast<double>(all.populations.size() - 1);
+    return 0.5 * (static_cast<double>(population) - middle) / static_cast<double>(all.populations.size());
+}
+
+// Returns the ticks of an axis of texts. The labels are inclined, because long ones would overlap.
+std::string text_ticks(const std::vector<std::string>& texts, bool with_labels) {
+    std::vector<std::string> ticks;
+    for (std::size_t k = 0; k < texts.size(); ++k) {
+        ticks.push_back(fmt::format("{} {}", with_labels ? gnuplot_text(texts[k]) : "''", k));
+    }
+    return fmt::format("rotate by 30 right ({})", fmt::join(ticks, ", "));
+}
+
+// Returns the height that the inclined labels of an axis need.
+double text_labels_px(const std::vector<std::string>& texts) {
+    constexpr double kLetter_px = 8.0;
+    constexpr double kSine = 0.5;  // of 30 degrees
+    constexpr double kBelow_px = 40.0;
+    std::size_t letters = 0;
+    for (const std::string& text : texts) letters = std::max(letters, text.size());
+    return kBelow_px + kSine * kLetter_px * static_cast<double>(letters);
+}
+
 std::string cells_of(const std::optional<SeedSpread>& spread) {
     if (!spread) return " NaN NaN NaN";
     const auto cell = [](double value) { return fmt::format(" {:.6g}", value + 0.0); };  // + 0.0 turns -0 into 0
@@ -78,7 +105,7 @@ std::string data_of(const SweepPlanes& all, const SweepPlane& plane) {
                     (all.line_axis.exists() ? ", " + all.line_axis.value_titles[line] : "") + "\n";
             for (std::size_t x = 0; x < all.x_axis.values.size(); ++x) {
                 const PlanePoint point{x, line, population};
-                data += fmt::format("{:g}", all.x_axis.values[x]);
+                data += fmt::format("{:g}", all.x_axis.values[x] + population_shift(all, population));
                 for (std::size_t metric = 0; metric < all.metrics.size(); ++metric)
                     data += cells_of(plane.value(metric, point));
                 for (std::size_t metric = 0; metric < all.metrics.size(); ++metric)
@@ -144,7 +171,8 @@ std::string panel_of(const SweepPlanes& all, const std::string& file, std::size_
                 plots += fmt::format("{}:{}:{} with yerrorbars pt 0 lw 1.2 dt 1 lc rgb '{}' notitle, ", block,
                                      column + 1, column + 2, style.colour);
             }
-            plots += fmt::format("{} with linespoints {} notitle, ", block, style.text());
+            plots += fmt::format("{} with {} {} notitle, ", block, all.x_axis.has_numbers() ? "linespoints" : "points",
+                                 style.text());
         }
     }
     return plots;
@@ -154,33 +182,42 @@ std::string panel_of(const SweepPlanes& all, const std::string& file, std::size_
 
 Figure sweep_lines_figure(const SweepPlanes& all, const SweepPlane& plane, std::size_t number) {
     constexpr double kMargin = 0.05;  // share of the range, keeps points off the frame
+    constexpr double kTextMargin = 0.5;
     constexpr double kKeyMargin = 0.008;
     Figure figure;
     figure.name = fmt::format("{}_{}", all.has_stability ? "network" : "lines", number);
     const std::size_t metrics = all.metrics.size();
     figure.width_px = 160 + 380 * static_cast<int>(metrics);
     const bool compares = all.populations.size() > 1;
-    figure.height_px = compares ? 760 : 410;
+    const bool has_numbers = all.x_axis.has_numbers();
+    const double base_px = compares ? 760.0 : 410.0;
+    const double below_px = has_numbers ? (compares ? 0.08 : 0.15) * base_px : text_labels_px(all.x_axis.texts);
+    figure.height_px = static_cast<int>(base_px + (has_numbers ? 0.0 : below_px));
     const std::string file = figure.name + ".dat";
     figure.data.emplace_back(file, data_of(all, plane));
     const std::string title = all.title(plane, "means of {} seeds with 95 % confidence intervals");
     const std::vector<double>& values = all.x_axis.values;
-    const double margin = values.size() > 1 ? kMargin * (values.back() - values.front()) : 1.0;
+    const double margin = !has_numbers        ? kTextMargin
+                          : values.size() > 1 ? kMargin * (values.back() - values.front())
+                                              : 1.0;
     const std::vector<KeyEntry> key = key_of(all);
     const double right = 1.0 - key_width_px(key) / figure.width_px;
     std::string body = fmt::format(
-        "set multiplot layout {},{}{} margins 0.075,{:.4f},{},{} spacing 0.065,0.10\nset xlabel {}\nset xrange [{:g}:{:g}]\n"
-        "set xtics {}\nset bars 0.5\n",
+        "set multiplot layout {},{}{} margins 0.075,{:.4f},{:.4f},{} spacing 0.065,0.10\nset xrange [{:g}:{:g}]\nset bars 0.5\n",
         compares ? 2 : 1, metrics, title.empty() ? "" : " title " + gnuplot_text(title), right,
-        compares ? "0.08" : "0.15",
+        below_px / figure.height_px,
         title.empty() ? "0.97"
         : compares    ? "0.94"
                       : "0.89",
-        gnuplot_text(all.x_axis.label()), values.front() - margin, values.back() + margin, ticks_of(values));
+        values.front() - margin, values.back() + margin);
     for (std::size_t panel = 0; panel < (compares ? 2 : 1) * metrics; ++panel) {
         const bool change = panel >= metrics;
         const std::size_t metric = panel % metrics;
         const SweepMetric& shown = all.metrics[metric];
+        const bool with_texts = change || !compares;
+        body += fmt::format("set xlabel {}\nset xtics {}\n",
+                            gnuplot_text(has_numbers || with_texts ? all.x_axis.label() : ""),
+                            has_numbers ? ticks_of(values) : text_ticks(all.x_axis.texts, with_texts));
         body += fmt::format("set ylabel {}\n", gnuplot_text(change ? all.change_label(shown) : shown.label()));
         // gnuplot needs an explicit range if no value is a number.
         body += change ? "set yrange [*:*]\n" : plane.has(metric) ? "set yrange [0:*]\n" : "set yrange [0:1]\n";

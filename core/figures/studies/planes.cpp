@@ -82,14 +82,33 @@ std::optional<PlotAxis> numeric_axis(const CsvTable& results, const std::string&
     return axis;
 }
 
+// Returns the axis in a column with the texts of its cells as values, in the order of the results.
+PlotAxis text_axis(const CsvTable& results, const std::string& column, const CellTitles& titles) {
+    PlotAxis axis;
+    axis.column = column;
+    axis.values.clear();
+    for (const std::vector<std::string>& row : results.rows) add_new(axis.texts, row[results.column(column)]);
+    for (const std::string& text : axis.texts) {
+        axis.values.push_back(static_cast<double>(axis.values.size()));
+        axis.value_titles.push_back(cell_title(titles, column, text));
+    }
+    name_axis(axis, axis.value_titles.front(), axis.texts.front());
+    return axis;
+}
+
 // Returns the x axis and the line axis of the figures, in this order. Returns the x axis alone if a single axis varies.
-// If no numeric axis varies, returns the axis `green` if the table has the axes `green` and `offset`, and nothing
-// otherwise.
+// If no numeric axis varies, returns the axis `green` if the table has the axes `green` and `offset`, otherwise the last
+// axis of texts that varies. Returns nothing if no axis varies.
 std::vector<PlotAxis> drawn_axes(const CsvTable& results, const CellTitles& titles,
                                  const std::string& population_column) {
     std::vector<PlotAxis> all;
+    std::vector<PlotAxis> last_texts;  // at most one
     for (const std::string& column : axis_columns(results, population_column)) {
-        if (std::optional<PlotAxis> axis = numeric_axis(results, column, titles)) all.push_back(std::move(*axis));
+        if (std::optional<PlotAxis> axis = numeric_axis(results, column, titles)) {
+            all.push_back(std::move(*axis));
+        } else if (PlotAxis texts = text_axis(results, column, titles); texts.values.size() > 1) {
+            last_texts = {std::move(texts)};
+        }
     }
     const auto single = [](const PlotAxis& axis) { return axis.values.size() == 1; };
     std::vector<PlotAxis> paper;
@@ -100,7 +119,7 @@ std::vector<PlotAxis> drawn_axes(const CsvTable& results, const CellTitles& titl
     }
     std::vector<PlotAxis> varied = paper.size() == 2 && !std::all_of(paper.begin(), paper.end(), single) ? paper : all;
     std::erase_if(varied, single);
-    if (varied.empty() && paper.size() == 2) return {paper.front()};
+    if (varied.empty()) return paper.size() == 2 ? std::vector<PlotAxis>{paper.front()} : last_texts;
     if (varied.size() > 2) varied.resize(2);  // each combination of the other axes gets figures of its own
     // As in the paper, the axis `green` is the x axis and the axis `offset` is the line axis.
     if (varied.size() == 2 && (varied[0].column == kOffsetColumn || varied[1].column == kGreenColumn)) {
@@ -139,6 +158,7 @@ std::string title_of(const CsvTable& results, const std::vector<std::string>& ro
 
 std::size_t index_on(const PlotAxis& axis, const CsvTable& results, const std::vector<std::string>& row) {
     if (!axis.exists()) return 0;
+    if (!axis.has_numbers()) return index_of(axis.texts, row[results.column(axis.column)]);
     return index_of(axis.values, parse_number(row[results.column(axis.column)]).value_or(0.0));
 }
 

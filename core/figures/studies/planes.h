@@ -4,7 +4,8 @@
 //
 // As in the paper, the x axis is the axis `green` (green time) and the line axis is the axis `offset`, provided that
 // the sweep has both axes and at least one of them varies. Otherwise the first one or two numeric axes that vary are
-// used. An axis with a single value appears in the title only.
+// used. If no numeric axis varies, the x axis is the last axis of texts that varies. An axis with a single value appears
+// in the title only.
 #pragma once
 
 #include <array>
@@ -51,8 +52,12 @@ struct PlotAxis {
     std::string unit;                       // such as "s"; empty: the values have no unit
     std::vector<double> values = {0.0};     // ascending; a single 0 if there is no such axis
     std::vector<std::string> value_titles;  // [value] text such as "green 15 s"; empty if there is no such axis
+    // [value] The values of an axis without numbers, such as "off" and "cooperative". `values` are then 0, 1, 2 and so
+    // on. Empty for an axis with numbers.
+    std::vector<std::string> texts;
 
     bool exists() const { return !column.empty(); }
+    bool has_numbers() const { return texts.empty(); }
     std::string label() const { return unit.empty() ? name : name + " [" + unit + "]"; }
 };
 

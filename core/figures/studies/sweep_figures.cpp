@@ -49,7 +49,8 @@ std::vector<Figure> sweep_figures(const CsvTable& results, const CellTitles& tit
     for (std::size_t k = 0; k < all->planes.size(); ++k) {
         figures.push_back(sweep_lines_figure(*all, all->planes[k], k + 1));
         if (all->line_axis.exists()) figures.push_back(sweep_surfaces_figure(*all, all->planes[k], k + 1));
-        if (all->has_stability) figures.push_back(sweep_stability_figure(*all, all->planes[k], k + 1));
+        if (all->has_stability && all->x_axis.has_numbers())
+            figures.push_back(sweep_stability_figure(*all, all->planes[k], k + 1));
     }
     return figures;
 }

@@ -177,10 +177,10 @@ TEST(NetworkSweepFigures, ReserveSpaceOnlyForAnExistingTitle) {
     };
     const std::string untitled = body("green_s,offset_s", {"5,0", "5,9", "8,0", "8,9"});
     EXPECT_TRUE(contains(untitled, "set multiplot layout 2,3 margins 0.075,"));
-    EXPECT_TRUE(contains(untitled, ",0.08,0.97 spacing"));
+    EXPECT_TRUE(contains(untitled, ",0.0800,0.97 spacing"));
     const std::string titled = body("left_percent,green_s,offset_s", {"4,5,0", "4,5,9", "4,8,0", "4,8,9"});
     EXPECT_TRUE(contains(titled, "title 'left 4 %' margins 0.075,"));
-    EXPECT_TRUE(contains(titled, ",0.08,0.94 spacing"));
+    EXPECT_TRUE(contains(titled, ",0.0800,0.94 spacing"));
 }
 
 // With t(0.975, 2) = 4.30265, the mean of 1300, 1000 and 1000 has the interval 1100 -+ 430.265. The differences between
@@ -260,6 +260,24 @@ TEST(NetworkSweepFigures, UseAnotherNumericAxisAndExplainIt) {
         sweep_figures_note(results, titles),
         "No figures over green and offset: they need the columns green_s and offset_s (columns found: spacing_m, rule); "
         "the figures use spacing_m instead, for each combination of the other axes");
+}
+
+// Without a numeric axis, the last axis of texts is the x axis. The points of the populations stand side by side.
+TEST(NetworkSweepFigures, CompareTextsIfNoNumbersVary) {
+    const CsvTable results =
+        table_of("lanes,rule", {"three,off", "three,on", "three,full", "four,off", "four,on", "four,full"});
+    const std::vector<Figure> figures = sweep_figures(results, {});
+    ASSERT_EQ(names_of(figures), (std::vector<std::string>{"network_1", "network_2"}));
+    EXPECT_TRUE(contains(figures[0].body, "('off' 0, 'on' 1, 'full' 2)"));
+    EXPECT_TRUE(contains(figures[0].body, "set xlabel 'rule'"));
+    EXPECT_TRUE(contains(figures[0].body, " with points "));
+    EXPECT_TRUE(lacks(figures[0].body, "with linespoints pt"));
+    EXPECT_TRUE(contains(figures[1].body, "title 'lanes four'"));
+    const std::string& data = figures[0].data.front().second;
+    EXPECT_TRUE(contains(data, "\n-0.125 "));
+    EXPECT_TRUE(contains(data, "\n0.125 "));
+    EXPECT_TRUE(contains(data, "\n2.125 "));
+    EXPECT_TRUE(contains(sweep_figures_note(results, {}), "the figures use rule instead"));
 }
 
 TEST(NetworkSweepFigures, UseTwoOtherAxesWithTheOffsetAsLines) {
