@@ -152,7 +152,7 @@ Model build_model(const Scenario& scenario, std::size_t population) {
         model.meso = true;
         if (is_active_channel(v2v, cacc.radar_range_m)) {
             model.v2v_plan = make_v2v_plan(v2v, true, cacc.v2v_delay_s, model.step_s, model.seed);
-            model.v2v_plan.is_active = false;  // only start messages use the channel
+            model.v2v_plan.is_active = false;  // vehicles have no receivers, but other functions use the channel
         }
         limit_platoons(driver_of(scenario, vehicles.components.front()), model);
         model.radar = make_delay(0.0, model.step_s);

@@ -155,7 +155,7 @@ std::vector<std::string> range_warnings(const Scenario& scenario) {
     const auto without_effect = [&](const char* field) {
         lines.push_back(
             fmt::format("{} has no effect in the mesoscale mode, where a V2V channel changes only the starts "
-                        "of queues and cooperative clearing",
+                        "of queues, cooperative clearing and cooperative gap opening",
                         field));
     };
     if (driver.v2v.topology != V2vSettings{}.topology) without_effect("driver.v2v.topology");

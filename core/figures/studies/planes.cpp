@@ -97,8 +97,8 @@ PlotAxis text_axis(const CsvTable& results, const std::string& column, const Cel
 }
 
 // Returns the x axis and the line axis of the figures, in this order. Returns the x axis alone if a single axis varies.
-// If no numeric axis varies, returns the axis `green` if the table has the axes `green` and `offset`, otherwise the last
-// axis of texts that varies. Returns nothing if no axis varies.
+// If no numeric axis varies, returns the axis `green` if the table has the axes `green` and `offset`, otherwise the
+// last axis of texts that varies. Returns nothing if no axis varies.
 std::vector<PlotAxis> drawn_axes(const CsvTable& results, const CellTitles& titles,
                                  const std::string& population_column) {
     std::vector<PlotAxis> all;

@@ -4,8 +4,8 @@
 //
 // As in the paper, the x axis is the axis `green` (green time) and the line axis is the axis `offset`, provided that
 // the sweep has both axes and at least one of them varies. Otherwise the first one or two numeric axes that vary are
-// used. If no numeric axis varies, the x axis is the last axis of texts that varies. An axis with a single value appears
-// in the title only.
+// used. If no numeric axis varies, the x axis is the last axis of texts that varies. An axis with a single value
+// appears in the title only.
 #pragma once
 
 #include <array>

@@ -68,7 +68,8 @@ MetricList<MeasuredNetwork> gap_metrics() {
         {.column = "gaps_stopped",
          .unit = "",
          .extent = "run",
-         .meaning = "number of agreements that end because the opener or the requester must stop at the line",
+         .meaning =
+             "number of agreements that end because the opener must stop at the line or the requester has to wait",
          .value = [](const MeasuredNetwork& run) { return run.result.gap_counts.of(GapEnding::stopped); }},
         {.column = "gaps_lost",
          .unit = "",

@@ -289,7 +289,7 @@ const Table& driver_table() {
             section<&S::give_way>("give_way", give_way_table, "yielding inside intersections"),
             section<&S::lane_change>("lane_change", lane_change_table, "lane changes"),
             section<&S::human>("human", human_table, "human drivers: policies with the law human"),
-            section<&S::v2v>("v2v", v2v_table, "V2V messages between automated vehicles, in full dynamics"),
+            section<&S::v2v>("v2v", v2v_table, "V2V messages between automated vehicles"),
             section<&S::platoon>("platoon", platoon_table, "length of platoons"),
         },
         check_driver);

@@ -30,7 +30,7 @@ int last_with_v2v(const State& state, int lane) {
     return -1;
 }
 
-// Returns the announcement of a lane with a number; nullptr: the lane has not made it.
+// Returns announcement `number` of the lane; nullptr: the lane has not made it.
 const LaneAnnouncement* announcement_of(const State& state, int lane, std::int64_t number) {
     const auto& all = state.clearing.announcements[at(lane)];
     const LaneAnnouncement& found = all[static_cast<std::size_t>(number) % all.size()];
@@ -58,7 +58,8 @@ ReceivedAnnouncement received_announcement(const Model& model, const State& stat
     for (std::int64_t number = newest; number >= oldest; --number) {
         const LaneAnnouncement* const found = announcement_of(state, listener.exit, number);
         if (found == nullptr) continue;
-        // The last vehicle that leaves speaks for all vehicles ahead of it. Without such a vehicle, the last one does.
+        // The last leaving vehicle sends the announcement. Without one with V2V, the vehicle furthest upstream sends
+        // it.
         const int leaver = slot_on_lane(state, listener.exit, found->last_leaver);
         const std::int64_t sent_tick = leaver >= 0 && has_v2v(state, leaver) ? heard_tick(leaver) : last_heard_tick;
         if (sent_tick >= number * interval) return {true, found};
@@ -72,7 +73,7 @@ ReceivedBookings received_bookings(const Model& model, const State& state, const
     const double to_line_m = state.plan.lane(listener.lane).stop_line_m - v.position_m[at(listener.slot)];
     for (const int connection : model.connections_to[at(listener.exit)]) {
         const LanePlan& path = state.plan.lane(connection);
-        if (path.origin == listener.lane) continue;  // a vehicle knows those ahead of it on its own lane
+        if (path.origin == listener.lane) continue;  // bookings of vehicles on the own lane are always known
         const LatestAdmission& latest = state.clearing.latest_admissions[at(path.origin)];
         const double line_m = state.plan.lane(path.origin).stop_line_m;
         bool is_latest = false;

@@ -19,7 +19,7 @@ int demanded_mode(const V2vPlan& plan, int age_ticks) {
 
 int update_driving_mode(const V2vPlan& plan, int tick, const AgeOfMessages& before, const AgeOfMessages& now, int& mode,
                         V2vModeMemory& memory) {
-    // Up to the previous step, the age may have demanded the present mode. The hysteresis counts from there.
+    // If the age of the previous step still demanded the present mode, the hysteresis begins again at that step.
     if (before.has_leader && demanded_mode(plan, tick - 1 - before.sent_tick) == mode) {
         memory.worst = 0;
         memory.since_tick = tick - 1;

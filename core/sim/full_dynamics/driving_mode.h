@@ -1,6 +1,6 @@
-// When the driving mode of a vehicle changes (v2v/fallback.h). The mode of a step depends on the ages of the messages
+// Computes the driving mode of a vehicle (v2v/fallback.h). The mode of a step depends on the ages of the messages
 // in all steps before. It is computed only in the steps in which it can change: when a message arrives, when the age of
-// the newest message passes a limit, and when the hysteresis ends. The result is that of a computation in every step.
+// the newest message passes a limit, and when the hysteresis ends. The result equals that of an update in every step.
 #pragma once
 
 #include "v2v/plan.h"

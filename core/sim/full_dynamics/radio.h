@@ -36,7 +36,7 @@ public:
         v_.v2v.sender[slot_] = sender;
         v_.v2v.sent_tick[slot_] = kNeverSent;
     }
-    // Replaces the newest message by the one with a number.
+    // Stores message `number` of the sender as the newest message.
     void hold(int number, int sent_tick) const {
         const SentMessage& message = v_.v2v.sent[v_.v2v.index_of(sender_slot_, number)];
         v_.v2v.sent_tick[slot_] = sent_tick;
@@ -166,8 +166,8 @@ private:
         return link.next_sent_tick + plan.delay_ticks + jitter_ticks(plan, message.link_key, message.number);
     }
 
-    // Stores a message that is on its way. It takes the place of a message that has arrived, or of one that will arrive
-    // later although it was sent earlier.
+    // Stores a message that is on its way in a free entry. Without one, it overwrites an older message that would
+    // arrive later.
     void await(int number, int arrival) const {
         V2vArrivals& arrivals = messages_.arrivals();
         for (std::size_t k = 0; k < arrivals.tick.size(); ++k) {

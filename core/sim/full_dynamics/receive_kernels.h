@@ -49,7 +49,7 @@ struct ReceiveLists {
     int *senders, *senders_end;
 };
 
-// Numbers of vehicles with a leader in the driving modes, and the platoons of a lane group.
+// Counts the vehicles with a leader in each driving mode. `mini_leader` is an input.
 struct ReceiveResults {
     std::array<std::int64_t, kV2vModes> mode_steps{};
     const float* mini_leader =

@@ -224,7 +224,7 @@ private:
         time_gap_s_ = gap.time_gap_s;
     }
 
-    // Enlarges the desired gaps to the gaps that the response to the leader's braking needs, and to the time gaps.
+    // Enlarges the desired gaps to the response gaps, and to the standstill gaps plus the time gaps times the speed.
     STOPLINE_INLINE void keep_gap() const {
         const R coming = of_place(g_.coming_speed);
         R desired = of_place(g_.desired_gap);
@@ -243,10 +243,10 @@ private:
         store_wide(g_.slope + k_, slope);
     }
 
-    // Limits the speed at which a vehicle closes up to its leader, so that the vehicle could still respond to full
-    // braking of its leader after response_time_s(): v^2 <= v_p^2 + 2 b (gap - reserve - T v), with the speed v_p of
-    // the leader and the maximum braking b. A faster vehicle brakes like keep_room_acceleration(). The law for
-    // following keeps more than this reserve, so it alone acts in equilibrium.
+    // Limits the speed at which a vehicle closes up to its leader. The vehicle can then still respond to full braking
+    // of its leader after T = response_time_s(): v^2 <= v_l^2 + 2 b (gap - reserve - T v), with the speed v_l of the
+    // leader and the maximum braking b. A faster vehicle brakes by the law of keep_room_acceleration(). The following
+    // law keeps more than this reserve, so it alone acts in equilibrium.
     STOPLINE_INLINE void keep_room() const {
         constexpr double kSpeedGain_1ps = 2.0;
         const R zero = splat<R>(0.0);
@@ -284,8 +284,8 @@ private:
 constexpr int kListBlock = 16;  // number of slots that are tested at once
 using ListBlock = Vector<std::int32_t, kListBlock>;
 
-// Appends those of `count` slots from `slot` on whose flag is -1 to a list, and returns the end of the list. Writes up
-// to kListBlock numbers.
+// Appends to a list each of the `count` slots from `slot` on that has the flag -1. Returns the end of the list. Writes
+// up to kListBlock numbers.
 STOPLINE_INLINE int* append_slots(int* list, int slot, int count, const ListBlock& flags) {
 #if defined(__AVX512F__)
     __m512i numbers;
@@ -307,7 +307,7 @@ STOPLINE_INLINE int* append_slots(int* list, int slot, int count, const ListBloc
 #endif
 }
 
-// Stores the own speeds, and lists the vehicles that the receive phase must treat and those that send (ReceiveWork).
+// Stores the own speeds. Lists the vehicles with something to receive, and those that send (ReceiveWork).
 template <class R>
 void list_due(const ReceiveStreams& streams, FullKernels::Lanes lanes, int tick, const FullGroup& group,
               const ReceiveLists& lists) {

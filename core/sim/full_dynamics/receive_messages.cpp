@@ -17,7 +17,8 @@ namespace stopline {
 
 namespace {
 
-// Returns true if the vehicle at `place` follows its leader at about the desired gap. `was_following`: it did before.
+// Returns true if the vehicle at `place` is no platoon leader and close enough to its leader for a platoon.
+// `was_following`: it was close enough before.
 bool follows(const FullGroup& g, int place, bool was_following) {
     const double excess_m = static_cast<double>(g.gap[place]) - g.desired_gap[place];
     return g.is_platoon_leader[place] == 0.0F && is_close_enough(excess_m, was_following);
@@ -81,7 +82,7 @@ public:
     ReceivePhase(const RadioStep& step, std::span<const LaneStep> lanes, const FullGroup& group, Partition& part)
         : step_(step), v_(step.state.vehicles), lanes_(lanes), g_(group), part_(part), work_(part.receive_work) {}
 
-    // Treats the vehicles in ReceiveWork::due.
+    // Receives the messages for the vehicles in ReceiveWork::due and updates their driving modes.
     void listen() const {
         constexpr int kAhead = 6;
         const int all = lanes_.empty() ? 0 : work_.due_end[lanes_.size() - 1];
@@ -173,7 +174,7 @@ private:
         if (mode != 0 || next <= step_.tick) {
             const int mode_before = mode;
             next = update_driving_mode(step_.plan, step_.tick, before, now, mode, v_.v2v.mode_memory[i]);
-            // With platoon leaders, follow_platoon_leaders() records the changes.
+            // With the topology predecessor_and_leader, follow_platoon_leaders() records the changes.
             if (mode != mode_before && !step_.plan.uses_platoon_leader) {
                 record_mode_change(slot, place, static_cast<V2vMode>(mode_before), v_.v2v.mode_of(slot));
             }
@@ -205,11 +206,10 @@ private:
         }
     }
 
-    // Receives the messages of the platoon leader, and replaces the law for following by that of Rajamani while they
-    // are recent. To replace the law, the desired gap becomes so small that it does not limit the acceleration, and
-    // the law of Rajamani becomes an external demand. All other laws, such as emergency braking, stay as they are. A
-    // vehicle that is too close to its leader keeps the law of its policy, because the law of Rajamani would follow the
-    // platoon leader's start even if its own leader still stands.
+    // Receives the messages of the platoon leader. While they are recent, the law of Rajamani replaces the following
+    // law: a tiny desired gap switches the following law off, and the law of Rajamani acts as an external demand. All
+    // other laws, such as emergency braking, stay as they are. A vehicle too close to its leader keeps the law of its
+    // policy. With the law of Rajamani it would start with the platoon leader, although its leader is stopped.
     // Precondition: the spacing policy keeps a constant distance at this speed.
     // Returns true if the vehicle uses the law of Rajamani.
     bool follow_platoon_leader(const LaneStep& lane, int slot, int place) const {
@@ -222,7 +222,7 @@ private:
         if (sender != radio.sender()) radio.set_sender(sender, sender >= 0);
         if (sender < 0) return false;
         // For one step after the platoon leader has changed its lane, its slot is not known.
-        // The distance is that to the leader times the number of vehicles between.
+        // The distance to the platoon leader is estimated as the own spacing times the number of vehicles ahead.
         if (v_.id[at(sender_slot)] == sender && own.platoon_message.due_tick <= step_.tick) {
             const double spacing_m = static_cast<double>(g_.gap[place]) + static_cast<double>(v_.length_m[at(slot)]);
             radio.receive(own.place_in_platoon * spacing_m);
@@ -300,7 +300,7 @@ void send_messages(const Model& model, std::span<const LaneStep> lanes, const Fu
                 send_tick = next_send_tick(plan, first_send_tick(plan, v.id[at(slot)]), tick);
             }
             if (send_tick > tick) continue;
-            const int number = send_tick / plan.interval_ticks;  // the first message is sent in the first interval
+            const int number = send_tick / plan.interval_ticks;  // message k is sent in interval k
             const std::size_t own = at(slot + slot_to_place);
             v.v2v.sent[v.v2v.index_of(slot, number)] = {group.sent_acceleration[own], group.sent_request[own],
                                                         group.sent_rate[own], group.speed[own]};
@@ -322,7 +322,7 @@ void measure_density(const Model& model, State& state) {
         state.longest_lane_m[k] = std::max(state.longest_lane_m[k], state.plan.lane(static_cast<int>(lane)).length_m);
         state.vehicles_per_km[k] += static_cast<float>(state.blocks[lane].count);
     }
-    // The vehicles of an intersection are within its longest lane, on both sides of the junction.
+    // The roads of an intersection extend by its longest lane to both sides, so the road length is twice this.
     constexpr double kKmPerM = 1e-3;
     for (std::size_t k = 0; k < intersections; ++k) {
         state.vehicles_per_km[k] /= static_cast<float>(2.0 * kKmPerM * state.longest_lane_m[k]);

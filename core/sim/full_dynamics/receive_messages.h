@@ -22,8 +22,8 @@ void receive_messages(const Model& model, const FullKernels& kernels, std::span<
                       const LaneGroup& lanes, std::span<const int> next, const FullGroup& group, State& state,
                       Partition& part);
 
-// Stores the messages of the vehicles that send in this step, which receive_messages() has listed. Call after the
-// motion of the vehicles. Same precondition.
+// Stores the messages of the senders of this step. receive_messages() has listed these vehicles. Call after the motion
+// of the vehicles. Same precondition.
 void send_messages(const Model& model, std::span<const LaneStep> lanes, const FullGroup& group, State& state,
                    const Partition& part);
 

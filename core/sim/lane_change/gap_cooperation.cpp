@@ -20,22 +20,23 @@ namespace {
 constexpr double kRange_m = 30.0;          // largest distance between a requester and its opener
 constexpr double kOpening_mps = 1.5;       // a gap grows with this speed
 constexpr double kOpeningRamp_mps2 = 1.0;  // change of the opener's speed
-constexpr double kFallingBack_mps = 3.0;   // a requester falls back to its gap with this speed
+constexpr double kFallingBack_mps = 3.0;   // largest speed difference of a requester to the leader of its gap
 constexpr double kApproach_s = 2.0;        // time constant with which a requester approaches its place
-constexpr double kDischarge_mps = 8.3;     // speed with which the discharge of a queue is counted
+constexpr double kDischarge_mps = 8.3;     // converts the length that a gap lacks to delay in a discharging queue
 constexpr double kSlow_mps = 3.0;          // a queue is slower than this speed
 constexpr double kTimeLimit_s = 10.0;      // an agreement is cancelled if it holds back a vehicle for longer
 constexpr double kPause_s = 5.0;           // time from the cancellation to the next agreement
-constexpr double kLastPoint_m = 2.0;       // distance to the last point within which a vehicle waits there
+constexpr double kLastPoint_m = 2.0;       // a requester this near to its waiting position counts as waiting
 constexpr double kReached_m = 0.3;         // a gap is open if it lacks less than this
-constexpr int kLostMessages = 3;           // so many lost messages in a row end an agreement
-constexpr int kFollowersPerOpener = 4;     // of so many consecutive vehicles, one opens a gap
+constexpr int kLostMessages = 3;           // number of messages lost in a row that ends an agreement
+constexpr int kFollowersPerOpener = 4;     // at most one opener in this number of consecutive vehicles
 
-// Returns the slot of the vehicle `id` on `lane`; -1: it is not there. `place` is the expected place on the lane.
-int find_vehicle(const State& state, int lane, int id, int place) {
+// Returns the slot of the vehicle `id` on `lane`; -1: it is not there. `index` is the expected index of the vehicle on
+// its lane.
+int find_vehicle(const State& state, int lane, int id, int index) {
     const LaneBlock& block = state.blocks[at(lane)];
     const auto& ids = state.vehicles.id;
-    for (const int guess : {place, place - 1, place + 1}) {
+    for (const int guess : {index, index - 1, index + 1}) {
         const int slot = block.first + guess;
         if (block.has(slot) && ids[at(slot)] == id) return slot;
     }
@@ -113,8 +114,8 @@ private:
             return false;
         }
         there_m_ = adjacent_position_m(state_, lane_, me.front_m, r.target_lane);
-        // At its last point the requester waits, and the vehicle behind the gap holds it open without a time limit
-        // (gap_search.cpp).
+        // A requester at its waiting position needs no agreement. A vehicle of the target lane holds the gap open
+        // without a time limit (gap_search.cpp).
         const bool waits =
             me.speed_mps < kCrawlingSpeed_mps && waiting_position_m(model_, state_, me) - me.front_m < kLastPoint_m;
         if (waits && r.agreed()) {
@@ -157,8 +158,8 @@ private:
         double lead_mps = 0.0;   // speed of the leader; without leader, that of the requester
         double gap_m = 0.0;      // present gap ahead of the opener
         double missing_m = 0.0;  // length that the gap lacks
-        double extra_m = 0.0;    // length that it lacks on top, because the requester is beside the opener
-        double spare_m = 0.0;    // distance by which the requester may move forward at the speed of the leader
+        double extra_m = 0.0;    // further length needed, because the requester is beside the opener
+        double spare_m = 0.0;    // distance from the requester to its place; below 0: it must fall back
     };
 
     Place place_ahead_of(const LaneChangeRequest& me, int target_lane, int opener, double front_m) const {
@@ -172,15 +173,15 @@ private:
         place.gap_m = has_leader ? rear_m(place.leader) - v_.position_m[at(opener)] : kNoLeader_m;
         place.spare_m = has_leader ? rear_m(place.leader) - lead_m - front_m : kNoLeader_m;
         const double room_m = lead_m + me.length_m + lag_m;
-        // A requester that keeps the speed of the leader needs the opener behind it.
+        // A requester beside the opener does not fall back. So the opener falls back until it is behind the requester.
         place.missing_m = room_m - place.gap_m;
         const double beside_m = v_.position_m[at(opener)] + lag_m + me.length_m - front_m;
         place.extra_m = std::max(beside_m - std::max(place.missing_m, 0.0), 0.0);
         return place;
     }
 
-    // Returns the tick of the newest message from the requester to a vehicle of the target lane (`request_tick`), or
-    // from that vehicle to the requester (`answer_tick`).
+    // Return the tick at which the newest message that has arrived was sent. request_tick(): from the requester to
+    // `other`. answer_tick(): from `other` to the requester.
     std::int64_t request_tick(const GapRequest& r, const LaneChangeRequest& me, int other) const {
         return heard_tick({me.slot, other, r.target_lane, std::abs(there_m_ - v_.position_m[at(other)])});
     }
@@ -221,7 +222,8 @@ private:
         }
         hold_opener(r, place);
         if (!r.is_confirmed || place.leader < 0 || place.lead_mps <= kSlow_mps) return;
-        // The requester approaches its place gradually. It may be unable to come forward again if it falls behind.
+        // The requester approaches its place gradually. If it fell behind its place, it might be unable to come
+        // forward.
         const double back_mps = std::clamp(-place.spare_m / kApproach_s, -kFallingBack_mps, kFallingBack_mps);
         add_alignment(state_, part_, lane_, {me.slot, std::max(expected_lead_mps(place) - back_mps, 0.0)});
     }
@@ -233,7 +235,8 @@ private:
         return place.lead_mps + v_.acceleration_mps2[at(place.leader)] * GapAlignment::kTimeToTarget_s;
     }
 
-    // Returns true if another vehicle has changed to the place ahead of the opener. Renews the leader if it has left.
+    // Returns true if another vehicle has changed to the place ahead of the opener. Stores the new leader if the old
+    // one has left.
     bool is_taken(GapRequest& r, const Place& place) const {
         const int leader = place.leader < 0 ? -1 : v_.id[at(place.leader)];
         if (leader == r.leader) return false;
@@ -298,20 +301,21 @@ private:
         const LaneBlock& there = state_.blocks[at(r.target_lane)];
         const double speed_mps = v_.speed_mps[at(slot)];
         const double lead_mps = slot > there.first ? v_.speed_mps[at(slot - 1)] : me.speed_mps;
-        // A slower requester is held up on its own lane. A faster one comes forward while it brakes to the speed of the
-        // leader.
+        // A much slower requester cannot reach the place, because the traffic of its own lane holds it up. A faster one
+        // comes forward while it brakes to the speed of the leader.
         const double faster_mps = me.speed_mps - lead_mps;
         if (faster_mps < -kFallingBack_mps && me.speed_mps > kCrawlingSpeed_mps) return -1.0;
         if (faster_mps > kFallingBack_mps && lead_mps <= kSlow_mps) return -1.0;
         const bool starts = speed_mps <= kSlow_mps;
-        // A vehicle in a standing queue does not agree. Most of these agreements would end unused, because it is not
-        // yet known when the queues on both lanes start. Once both have started, the opener starts later.
+        // A vehicle in a standing queue does not agree. Most agreements in standing queues would end unused, because it
+        // is unknown when the two queues start. If both discharge and the opener is still stopped, it agrees and delays
+        // its start.
         if (me.speed_mps <= kCrawlingSpeed_mps || lead_mps <= kCrawlingSpeed_mps) return -1.0;
         const double forward_m = 0.5 * square(std::max(faster_mps, 0.0)) / GapAlignment::kDeceleration_mps2;
         const Place place = place_ahead_of(me, r.target_lane, slot, there_m_ + forward_m);
         const double missing_m = std::max(place.missing_m, 0.0) + place.extra_m;
         if (starts) {
-            // The requester stands beside the gap when the vehicle ahead of it has left.
+            // The gap may lack at most one vehicle and two standstill gaps, so that the requester is soon beside it.
             const double room_m = me.length_m + 2.0 * v_.standstill_gap_m[at(me.slot)];
             if (missing_m > room_m || place.spare_m < -room_m) return -1.0;
         } else {

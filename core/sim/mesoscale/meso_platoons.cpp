@@ -18,7 +18,7 @@ double net_gap_m(const VehicleArrays& v, std::size_t i) {
     return v.position_m[i - 1] - static_cast<double>(v.length_m[i - 1]) - v.position_m[i];
 }
 
-// Returns the next place of a vehicle whose policy forms platoons. `leader_id`: -1: the vehicle has no leader.
+// Returns the next place of a vehicle whose policy forms platoons. `leader_id` is -1 if the vehicle has no leader.
 PlatoonPlace next_place(const Model& model, const VehicleArrays& v, std::size_t i, int leader_id) {
     const PlatoonArrays& platoon = v.platoon;
     const bool led_mini_platoon = platoon.target_time_gap_s[i] > 0.0;
@@ -34,8 +34,9 @@ PlatoonPlace next_place(const Model& model, const VehicleArrays& v, std::size_t 
 
 // Returns the highest next speed of the leader of a mini-platoon in slot i. The law keeps the time gap T exactly:
 //     gap = standstill gap + T v  holds if  T dv/dt = v_l - v - (dT/dt) v
-// with the speed v_l of the leader. An error e of the gap adds lambda e to the right side and decays with the rate
-// lambda, as in the gap law of full dynamics. The law is solved for the speed at the end of the step, so T may be tiny.
+// with the speed v_l of the vehicle ahead of the mini-platoon. An error e of the gap adds lambda e to the right side
+// and decays with the rate lambda, as in the gap law of full dynamics. The law is solved for the speed at the end of
+// the step, so T may be tiny.
 double time_gap_speed_mps(const Model& model, const VehicleArrays& v, std::size_t i, const TimeGapOf<double>& gap) {
     const CaccSettings& cacc = model.driver_of(v.policy[i]).tables.cacc;
     const double dt = model.step_s;

@@ -1,5 +1,5 @@
-// Platoons of limited length in the mesoscale mode. A platoon consists of consecutive vehicles whose model passes on
-// V2V start messages (FollowingModel::relays_starts()), also across stop lines. The first vehicle beyond the limit
+// Platoons of limited length in the mesoscale mode. A platoon consists of consecutive vehicles whose model relays V2V
+// start messages (FollowingModel::relays_starts()). It may extend across stop lines. The first vehicle beyond the limit
 // leads a mini-platoon: it starts with the vehicles ahead of it, and keeps a time gap while it drives.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The driving mode is computed only when it can change. The result must be that of a computation in every step.
+// The driving mode is computed only when it can change. The result must equal that of an update in every step.
 #include <gtest/gtest.h>
 
 #include "base/random.h"

@@ -48,7 +48,7 @@ Model two_lanes(const std::string& fidelity, const std::string& gap_opening, dou
     return model;
 }
 
-// Places a vehicle on lane k. It must be on lane `target` at the stop line. Returns its id.
+// Places a vehicle on lane k. Its route requires lane `target` at the stop line. Returns its id.
 int place(Track& track, int k, double position_m, double speed_mps, int target) {
     const int id = track.place(2 * k, position_m, speed_mps);
     State& state = track.mutable_state();
@@ -74,7 +74,7 @@ class GapCooperationTest : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Fidelities, GapCooperationTest, testing::Values("meso", "full"),
                          [](const auto& run) { return std::string(run.param); });
 
-// Two vehicles at constant speed and a requester beside the gap between them. The requester accepts no gap, because it
+// A requester drives beside the second of two vehicles at constant speed. The requester accepts no gap, because it
 // requires twice the gap of the policy.
 class TwoVehiclesAndRequester {
 public:
@@ -103,8 +103,8 @@ private:
     int requester_ = -1;
 };
 
-// The gap grows by the room D that it lacks: the length of the requester and two gaps of the policy, less the present
-// gap. With a speed difference of 1.5 m/s and ramps of 1 m/s2 this takes D / 1.5 + 1.5 / 1.
+// The gap grows by the length D: the requester's length plus two gaps of the policy, minus the present gap, plus
+// GapRequest::extra_m. With a speed difference of 1.5 m/s and ramps of 1 m/s2 this takes D / 1.5 + 1.5 / 1.
 TEST_P(GapCooperationTest, GapOpensInTheTimeOfTheClosedForm) {
     TwoVehiclesAndRequester run(GetParam());
     Track& track = run.track();
@@ -163,7 +163,7 @@ constexpr V2vChannel kBreaksDown{"breaks_down", "delivers the first 30 messages"
 // The list of channels must be complete before the first scenario is loaded.
 [[maybe_unused]] const bool kIsRegistered = (register_v2v_channel(kBreaksDown), true);
 
-// Three lost messages in a row end an agreement. Without messages there is no new one.
+// Three lost messages in a row end an agreement. Without messages the vehicles make no new agreement.
 TEST_P(GapCooperationTest, LostMessagesEndTheAgreement) {
     // The requester accepts no gap, so that the agreement does not end otherwise.
     Track track(two_lanes(GetParam(), "cooperative", 0.0,
@@ -187,8 +187,8 @@ TEST_P(GapCooperationTest, LostMessagesEndTheAgreement) {
     // The requester hears of the agreement with the opener's next message.
     EXPECT_GT(confirmed_s, agreed_s - 1e-9);
     EXPECT_LE(confirmed_s, agreed_s + 0.2);
-    // The last message is sent between 2.9 and 3.0 s. It is used for the delay, which is at most 0.1 s, and for three
-    // intervals. The lanes are inspected every 0.1 s.
+    // The last message is sent between 2.9 and 3.0 s. The message stays valid for the delay, which is at most
+    // 0.1 s, plus three intervals. The lanes are inspected every 0.1 s.
     EXPECT_GE(ended_s, 2.9 + 0.3);
     EXPECT_LE(ended_s, 3.0 + 0.1 + 0.3 + 0.1 + 1e-9);
     const GapCounts& counts = track.state().records.gap_counts;
@@ -210,7 +210,7 @@ TEST_P(GapCooperationTest, RequestsReachOnlyVehiclesWithinTheRange) {
     }
 }
 
-// A requester within a platoon changes lanes to the gap that one vehicle opens.
+// A requester beside a platoon changes lanes to the gap that one vehicle opens.
 TEST_P(GapCooperationTest, RequesterTakesTheGap) {
     Track track(two_lanes(GetParam(), "cooperative", 0.0, {}, 10.0));
     place_platoon(track, 300.0, 10.0, 12);
@@ -280,7 +280,8 @@ TEST_P(GapCooperationTest, OneInFourOpensAGap) {
         }
         std::sort(places.begin(), places.end());
         most = std::max(most, static_cast<int>(places.size()));
-        if (!state.records.lane_changes.empty()) break;  // later, vehicles in between change the places
+        if (!state.records.lane_changes.empty())
+            break;  // later, vehicles that have changed lanes would shift the slots
         for (std::size_t k = 1; k < places.size(); ++k) EXPECT_GE(places[k] - places[k - 1], 4);
     }
     EXPECT_GE(most, 3);

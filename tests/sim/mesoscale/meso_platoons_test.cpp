@@ -53,7 +53,8 @@ std::vector<double> passing_times_s(const std::string& max_vehicles, const std::
     return times_s;
 }
 
-// The closed form: the leaders of mini-platoons keep the time gap, all others the standstill gap:
+// The leaders of mini-platoons keep the time gap T, all others only the standstill gap s. With the vehicle length L,
+// the speed v and n vehicles in a platoon, the mean headway is
 //     ((L + s)/v + T + (n - 1) (L + s)/v) / n = (L + s)/v + T/n
 TEST(MesoPlatoons, SaturationHeadwayIsThatOfTheClosedForm) {
     constexpr int kVehicles = 130;
@@ -131,7 +132,8 @@ TEST(MesoPlatoons, AnotherPolicyBreaksThePlatoon) {
     for (int k = 0; k < 7; ++k) EXPECT_EQ(place_of(track, 0, k), places[at(k)]) << "vehicle " << k;
 }
 
-// The gap of a mini-platoon that forms at full speed opens by about 1.5 m/s. Comfortable braking has 3.5 m/s2.
+// The gap of a mini-platoon that forms at full speed opens by about 1.5 m/s. The braking stays well below comfortable
+// braking (3.5 m/s2).
 TEST(MesoPlatoons, AGapOpensGentlyInMotion) {
     TrackPlan plan = limited("4");
     plan.length_m = 3000.0;

@@ -135,7 +135,7 @@ const Table& platoon_table() {
 const Table& v2v_table() {
     using S = V2vSettings;
     static const Table table = make_table<S>(
-        "V2V messages between automated vehicles, in full dynamics; by default every message arrives after "
+        "V2V messages between automated vehicles; by default every message arrives after "
         "cacc.v2v_delay",
         {
             choice<&S::channel>("channel", v2v_channel_names(), channel_meaning()),

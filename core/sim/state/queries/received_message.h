@@ -1,5 +1,5 @@
-// The newest V2V message that one vehicle has received from another vehicle. All V2V functions that do not need the
-// messages of each step use it: cooperative clearing and cooperative gap opening.
+// The newest V2V message that one vehicle has received from another vehicle. Cooperative clearing
+// and cooperative gap opening use this query, because they do not need every message.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace stopline {
 
-// Returns true if the vehicles send over a channel with delays or losses. If not, each message is known to all vehicles
-// in the step after it was sent.
+// Returns true if the vehicles send over a channel with delays or losses. Without such a channel,
+// messages have no delay and are never lost.
 inline bool uses_channel(const Model& model) { return model.v2v_plan.channel != nullptr; }
 
 struct MessageLink {

@@ -9,10 +9,10 @@ namespace stopline {
 
 inline constexpr int kNoPlatoon = -1;
 
-// One value for each slot. The slots without a limit have no values.
+// One value for each slot. The arrays are empty if platoons have no limit.
 struct PlatoonArrays {
-    // Number of vehicles ahead in the platoon. kNoPlatoon: the policy of the vehicle does not form platoons. The slot
-    // before the first vehicle of a lane has a copy from the leader beyond the lane, as of the previous step.
+    // Number of vehicles ahead in the platoon. kNoPlatoon: the policy of the vehicle does not form platoons. The
+    // sentinel slot holds the place of the leader beyond the lane in the previous step.
     LargeArray<int> place;
     LargeArray<int> leader_id;  // id of the leader when the place was last decided; -1: none
     // Time gap that the leader of a mini-platoon keeps while it drives; 0: the vehicle leads no mini-platoon.
