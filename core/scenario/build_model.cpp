@@ -78,12 +78,12 @@ void add_detectors(const NetworkKind& kind, const Scenario& scenario, Model& mod
 }
 
 // Sets the length of platoons and the time gap between them.
-void limit_platoons(const DriverSettings& driver, Model& model) {
+void limit_platoons(const DriverSettings& driver, double full_step_s, Model& model) {
     V2vPlan& plan = model.v2v_plan;
     plan.platoon_time_gap_s = driver.platoon.time_gap_s;
     double lag_s = 0.0;
     for (const PowertrainTables& type : model.vehicles) lag_s = std::max(lag_s, type.brake_lag_s);
-    const double message_age_s = mean_message_age_s(driver, model.step_s);
+    const double message_age_s = mean_message_age_s(driver, full_step_s);
     plan.max_platoon = max_platoon_vehicles(driver.platoon, driver.cacc, message_age_s, lag_s);
 }
 
@@ -144,17 +144,18 @@ Model build_model(const Scenario& scenario, std::size_t population) {
         const double longest_s = driver.human.reaction_s + driver.human.reaction_spread_s;
         model.radar.rows = std::max(model.radar.rows, make_delay(longest_s, model.step_s).rows);
     }
-    const V2vSettings& v2v = driver_of(scenario, vehicles.components.front()).v2v;
-    const bool active = !scenario.is_meso() && needs_receivers(driver_of(scenario, vehicles.components.front()));
+    const DriverSettings v2v_driver = v2v_driver_of(scenario, vehicles);
+    const V2vSettings& v2v = v2v_driver.v2v;
+    const bool active = !scenario.is_meso() && needs_receivers(v2v_driver);
     model.v2v_plan = make_v2v_plan(v2v, active, cacc.v2v_delay_s, model.step_s, model.seed);
-    if (active) limit_platoons(driver_of(scenario, vehicles.components.front()), model);
+    if (active) limit_platoons(v2v_driver, scenario.step_s, model);
     if (scenario.is_meso()) {  // mesoscale car following has no radar delay
         model.meso = true;
         if (is_active_channel(v2v, cacc.radar_range_m)) {
             model.v2v_plan = make_v2v_plan(v2v, true, cacc.v2v_delay_s, model.step_s, model.seed);
             model.v2v_plan.is_active = false;  // vehicles have no receivers, but other functions use the channel
         }
-        limit_platoons(driver_of(scenario, vehicles.components.front()), model);
+        limit_platoons(v2v_driver, scenario.step_s, model);
         model.radar = make_delay(0.0, model.step_s);
         model.v2v = make_delay(model.step_s, model.step_s);
     }
@@ -168,7 +169,7 @@ Model build_model(const Scenario& scenario, std::size_t population) {
         if (model.v2v_plan.channel != nullptr) {
             // Each vehicle waits for a message of the vehicle ahead. So the message passes on by one vehicle in a time
             // that is the mean age of messages.
-            const double age_s = mean_message_age_s(driver_of(scenario, vehicles.components.front()), 0.0);
+            const double age_s = mean_message_age_s(v2v_driver, 0.0);
             const int receivers = std::max(static_cast<int>(model.step_s / std::max(age_s, 1e-3)), 1);
             model.start_relay_vehicles = std::min(model.start_relay_vehicles, receivers);
         }

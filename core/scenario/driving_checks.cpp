@@ -149,6 +149,14 @@ std::vector<std::string> range_warnings(const Scenario& scenario) {
             lines.push_back(beyond_text(limit_mps, driver_range_mps, "driver '" + scenario.driver_name + "'",
                                         "driver.free_drive.profile_limit", free.power_share));
         }
+        const V2vSettings& v2v = scenario.driver.v2v;
+        const double age_s = scenario.driver.cacc.v2v_delay_s + v2v.jitter_s + message_interval_s(v2v, scenario.step_s);
+        if (v2v.topology == "predecessor_and_leader" && age_s > kLongestPlatoonLeaderAge_s) {
+            lines.push_back(fmt::format(
+                "messages of the platoon leader are up to {:.0f} ms old, but followers use them up to {:.0f} ms: they "
+                "alternate between the modes platoon_leader and messages (driver.v2v.interval)",
+                1000.0 * age_s, 1000.0 * kLongestPlatoonLeaderAge_s));
+        }
         return lines;
     }
     const DriverSettings& driver = scenario.driver;

@@ -36,13 +36,17 @@ constexpr std::array<CommonSetting, 4> kCommonSettings{{
 
 void check_population(const Scenario& scenario, const PopulationSettings& population, Checker& check) {
     const DriverSettings& first = driver_of(scenario, population.components.front());
+    const DriverSettings v2v_driver = v2v_driver_of(scenario, population);
     for (std::size_t k = 1; k < population.components.size(); ++k) {
         const DriverSettings& own = driver_of(scenario, population.components[k]);
-        if (own.v2v != first.v2v && own.v2v != V2vSettings{}) {
+        const auto differs = [&](const char* field) {
             check.error(component_field(population, k) + ".driver",
-                        "v2v differs from that of the first component of the population: all drivers of a population "
-                        "must have the same values, or leave v2v out");
-        }
+                        fmt::format("{0} differs from that of another component of the population: all drivers of a "
+                                    "population must have the same values, or leave {0} out",
+                                    field));
+        };
+        if (own.v2v != v2v_driver.v2v && own.v2v != V2vSettings{}) differs("v2v");
+        if (own.platoon != v2v_driver.platoon && own.platoon != PlatoonSettings{}) differs("platoon");
         for (const CommonSetting& setting : kCommonSettings) {
             const double value = setting.value(own);
             const double first_value = setting.value(first);
@@ -101,6 +105,16 @@ const PowertrainSettings& vehicle_of(const Scenario& scenario, const PopulationS
 
 const DriverSettings& driver_of(const Scenario& scenario, const PopulationSettings::Component& component) {
     return component.driver ? *component.driver : scenario.driver;
+}
+
+DriverSettings v2v_driver_of(const Scenario& scenario, const PopulationSettings& population) {
+    DriverSettings driver = driver_of(scenario, population.components.front());
+    for (const PopulationSettings::Component& component : population.components) {
+        const DriverSettings& own = driver_of(scenario, component);
+        if (driver.v2v == V2vSettings{}) driver.v2v = own.v2v;
+        if (driver.platoon == PlatoonSettings{}) driver.platoon = own.platoon;
+    }
+    return driver;
 }
 
 std::vector<const PopulationSettings::Component*> all_components(const Scenario& scenario) {

@@ -14,6 +14,10 @@ namespace stopline {
 const PowertrainSettings& vehicle_of(const Scenario& scenario, const PopulationSettings::Component& component);
 const DriverSettings& driver_of(const Scenario& scenario, const PopulationSettings::Component& component);
 
+// Returns the driver of the first component of a population, with the V2V and platoon settings of the first component
+// that sets them. These settings apply to all vehicles of the population.
+DriverSettings v2v_driver_of(const Scenario& scenario, const PopulationSettings& population);
+
 // Returns the components of all populations. The pointers are valid as long as the scenario.
 std::vector<const PopulationSettings::Component*> all_components(const Scenario& scenario);
 

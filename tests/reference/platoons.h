@@ -57,7 +57,8 @@ private:
         const bool led_before = v.leads_mini_platoon && v.platoon_leader_id == leader.id;
         const double desired_m = policy.equilibrium_gap_m(v.speed_mps) + policy.extra_gap_m(v.speed_mps);
         const double longest_excess_m = v.platoon_place > 0 || led_before ? 25.0 : 15.0;
-        const bool follows = leader.id >= 0 && place_ahead != kNone && !v.is_platoon_leader &&
+        const bool follows = leader.id >= 0 && place_ahead != kNone &&
+                             !(v.is_platoon_leader && has_platoon_leaders(w_.meso)) &&
                              leader.gap_m - desired_m < longest_excess_m;
         const bool joins = follows && place_ahead + 1 < longest_ && (!led_before || v.speed_mps == 0.0);
         v.platoon_place = joins ? place_ahead + 1 : 0;

@@ -51,6 +51,24 @@ TEST(Fleets, ModelHasEachVehicleAndDriverOnce) {
     EXPECT_EQ(model.policies[2].settings.name, "CDG-6m_city_bus_12m");
 }
 
+// The limit of platoons applies to all vehicles, whichever component sets it. Both fidelities compute the same limit.
+TEST(Fleets, AnyComponentMaySetTheLimitOfPlatoons) {
+    const std::string limited = "{policy: CDG, share: 60 %, driver: {base: startup_kit, platoon: {max_vehicles: 3}}}";
+    const std::string free = "{policy: CDG-6m, share: 40 %, driver: {base: startup_kit}}";
+    EXPECT_EQ(build_model(with_components(limited + ", " + free), 0).v2v_plan.max_platoon, 3);
+    EXPECT_EQ(build_model(with_components(free + ", " + limited), 0).v2v_plan.max_platoon, 3);
+    EXPECT_THROW(with_components(limited + ", {policy: CDG, share: 40 %, driver: {base: startup_kit, platoon: "
+                                           "{max_vehicles: 4}}}"),
+                 InputError);
+    const std::vector<std::string> stable{"driver.platoon.max_vehicles=by_stability",
+                                          "driver.v2v={channel: bernoulli, loss: 10 %}"};
+    const int full = build_model(with_components("{policy: CDG, share: 100 %}", stable), 0).v2v_plan.max_platoon;
+    std::vector<std::string> meso = stable;
+    meso.emplace_back("fidelity=meso");
+    EXPECT_GT(full, 1);
+    EXPECT_EQ(build_model(with_components("{policy: CDG, share: 100 %}", meso), 0).v2v_plan.max_platoon, full);
+}
+
 // The canonical text of a scenario defines its hash. A scenario without own vehicles must not mention them.
 TEST(Fleets, CanonicalTextHasOnlyOwnVehicles) {
     const auto count = [](const std::string& text, const std::string& part) {

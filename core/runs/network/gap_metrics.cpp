@@ -74,7 +74,8 @@ MetricList<MeasuredNetwork> gap_metrics() {
         {.column = "gaps_lost",
          .unit = "",
          .extent = "run",
-         .meaning = "number of agreements that end because three messages in a row are lost (`driver.v2v`)",
+         .meaning =
+             "number of agreements that end because one vehicle hears nothing from the other for 1 s (`driver.v2v`)",
          .value = [](const MeasuredNetwork& run) { return run.result.gap_counts.of(GapEnding::lost); }},
         {.column = "gaps_not_needed",
          .unit = "",
@@ -85,7 +86,9 @@ MetricList<MeasuredNetwork> gap_metrics() {
         {.column = "gap_delay_h",
          .unit = "veh h",
          .extent = "run",
-         .meaning = "delay of the vehicles that open gaps, without the vehicles behind them",
+         .meaning =
+             "delay of the vehicles whose gap has reached its length, estimated from the growth of the gap, without the "
+             "vehicles behind them",
          .value = [](const MeasuredNetwork& run) { return run.result.gap_counts.given_s / kSecondsPerHour; },
          .summary_decimals = 4},
     };

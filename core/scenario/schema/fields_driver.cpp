@@ -158,7 +158,8 @@ const Table& lane_change_table() {
                 "agree on the gap")
                 .renamed_from("help"),
             number<&S::courtesy>("courtesy", "%", {0, 100},
-                                 "probability with which a driver without V2V opens a gap for another vehicle"),
+                                 "probability with which a driver without V2V opens a gap for another vehicle")
+                .only_if("gap_opening", {"cooperative"}),
             number<&S::threshold_mps2>("threshold", "m/s2", {0, 10},
                                        "discretionary changes (MOBIL): smallest gain in acceleration that counts"),
             number<&S::gain_mps>("gain", "km/h", {0, 100},

@@ -100,6 +100,14 @@ public:
         }
     }
 
+    // Returns true if the vehicle could hear the leader of the platoon that it joins behind `leader`. The distance is
+    // estimated as the own spacing times the number of vehicles ahead.
+    bool is_leader_in_range(const V2vReceiver* leader, int slot, int place) const {
+        if (!step_.plan.uses_platoon_leader || leader == nullptr) return true;
+        const double spacing_m = static_cast<double>(g_.gap[place]) + static_cast<double>(v_.length_m[at(slot)]);
+        return (leader->place_in_platoon + 1) * spacing_m <= step_.plan.settings.range_m;
+    }
+
     // Updates the platoons, from front to rear of each lane.
     void find_platoons() const {
         for_each_radio([&](const LaneStep& /*lane*/, int slot, int place) {
@@ -107,7 +115,8 @@ public:
             PlatoonLink link;
             link.leader = v_.v2v.sender[at(slot)] < 0 ? nullptr : &v_.v2v.rest[at(slot - 1)];
             link.leader_has_v2v = own.leader_has_v2v;
-            link.is_following = follows(g_, place, own.place_in_platoon > 0 || own.leads_mini_platoon);
+            link.is_following = follows(g_, place, own.place_in_platoon > 0 || own.leads_mini_platoon) &&
+                                is_leader_in_range(link.leader, slot, place);
             link.is_stopped = static_cast<double>(g_.speed[place]) <= kBrakeHoldSpeed_mps;
             update_platoon(link, step_.plan.max_platoon, v_.id[at(slot)], slot, own);
             work_.mini_leader[at(place)] = own.leads_mini_platoon ? 1.0F : 0.0F;

@@ -28,7 +28,8 @@ constexpr double kTimeLimit_s = 10.0;      // an agreement is cancelled if it ho
 constexpr double kPause_s = 5.0;           // time from the cancellation to the next agreement
 constexpr double kLastPoint_m = 2.0;       // a requester this near to its waiting position counts as waiting
 constexpr double kReached_m = 0.3;         // a gap is open if it lacks less than this
-constexpr int kLostMessages = 3;           // number of messages lost in a row that ends an agreement
+constexpr double kSilence_s = 1.0;         // an agreement ends if a vehicle hears nothing from the other for so long
+constexpr int kLostMessages = 3;           // and has missed at least so many messages
 constexpr int kFollowersPerOpener = 4;     // at most one opener in this number of consecutive vehicles
 
 // Returns the slot of the vehicle `id` on `lane`; -1: it is not there. `index` is the expected index of the vehicle on
@@ -197,7 +198,8 @@ private:
         const int opener = find_vehicle(state_, r.target_lane, r.opener, r.place);
         if (opener < 0) return end(r, GapEnding::left);
         const std::int64_t answered_tick = answer_tick(me, opener);
-        if (answered_tick == kNoMessage || request_tick(r, me, opener) == kNoMessage) return end(r, GapEnding::lost);
+        if (answered_tick == kNoMessage || request_tick(r, me, opener) == kNoMessage)
+            return end(r, GapEnding::lost, kPause_s);
         r.is_confirmed = r.is_confirmed || answered_tick >= r.agreed_tick;
         if (is_late(r)) return end(r, GapEnding::expired, kPause_s);
         if (opener == state_.stop_lines.stop_slot[at(r.target_lane)]) return end(r, GapEnding::stopped);
@@ -377,7 +379,8 @@ void init_gap_cooperation(const Model& model, State& state) {
     cooperation.search_ticks = std::max<std::int64_t>(to_ticks(1.0, model.step_s), 1);
     const V2vPlan& plan = model.v2v_plan;
     cooperation.longest_age_ticks =
-        plan.delay_ticks + plan.longest_jitter_ticks + static_cast<std::int64_t>(kLostMessages) * plan.interval_ticks;
+        std::max<std::int64_t>(to_ticks(kSilence_s, model.step_s),
+                               plan.delay_ticks + plan.longest_jitter_ticks + kLostMessages * plan.interval_ticks);
 }
 
 void cooperate_on_gaps(const Model& model, State& state, Partition& part) {

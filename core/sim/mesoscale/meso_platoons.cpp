@@ -18,6 +18,12 @@ double net_gap_m(const VehicleArrays& v, std::size_t i) {
     return v.position_m[i - 1] - static_cast<double>(v.length_m[i - 1]) - v.position_m[i];
 }
 
+// Returns true if platoon leaders have an acceleration of their own. Only then does the mesoscale model decide which
+// vehicles are platoon leaders (VehicleArrays::is_platoon_leader).
+bool has_own_acceleration(const Model& model) {
+    return model.leader_mps2 > 0.0 || model.leader_profile.bins_per_mps > 0.0;
+}
+
 // Returns the next place of a vehicle whose policy forms platoons. `leader_id` is -1 if the vehicle has no leader.
 PlatoonPlace next_place(const Model& model, const VehicleArrays& v, std::size_t i, int leader_id) {
     const PlatoonArrays& platoon = v.platoon;
@@ -28,7 +34,8 @@ PlatoonPlace next_place(const Model& model, const VehicleArrays& v, std::size_t 
         const double excess_m = net_gap_m(v, i) - desired_gap_m(model, v.policy[i], v.speed_mps[i]);
         return is_close_enough(excess_m, own.vehicles_ahead > 0 || own.leads_mini_platoon);
     };
-    const bool joins = leader_id >= 0 && leader_place != kNoPlatoon && v.is_platoon_leader[i] == 0.0F && follows();
+    const bool leads = has_own_acceleration(model) && v.is_platoon_leader[i] != 0.0F;
+    const bool joins = leader_id >= 0 && leader_place != kNoPlatoon && !leads && follows();
     return next_platoon_place(own, joins, {leader_place, false}, v.speed_mps[i] == 0.0, model.v2v_plan.max_platoon);
 }
 

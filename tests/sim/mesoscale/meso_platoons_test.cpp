@@ -80,6 +80,25 @@ TEST(MesoPlatoons, PlatoonsOfOneVehicleKeepTheTimeGapOfCtg) {
     EXPECT_NEAR(headway_s(limited_s), headway_s(ctg_s), 0.015 * headway_s(ctg_s));
 }
 
+// With the parameters table2, platoon leaders have no acceleration of their own.
+TEST(MesoPlatoons, TheLimitWorksWithAllParameters) {
+    const auto crossings = [](const std::string& meso, const std::string& max_vehicles) {
+        TrackPlan plan = limited(max_vehicles);
+        plan.overrides[1] = "meso=" + meso;
+        Track track = queue(plan, 40);
+        track.run(33.0);
+        return track.count(1);
+    };
+    for (const std::string meso : {"passages", "table2", "fitted"}) {
+        const int unlimited = crossings(meso, "none");
+        const int four = crossings(meso, "4");
+        const int one = crossings(meso, "1");
+        EXPECT_GT(unlimited, four) << meso;
+        EXPECT_GT(four, one) << meso;
+        EXPECT_NEAR(static_cast<double>(unlimited) / one, 2.1, 0.3) << meso;
+    }
+}
+
 TEST(MesoPlatoons, VehiclesStartTogetherAndKeepTheirPlacesAcrossTheStopLine) {
     constexpr int kVehicles = 14;
     constexpr int kLongest = 4;

@@ -168,7 +168,7 @@ TEST(Platoons, NobodyClosesUpToALeaderThatHasNotHeardOfTheStart) {
     for (const char* seed : {"1", "2", "3", "4", "5"}) {
         TrackPlan plan =
             platoon_plan({"driver.v2v={channel: gilbert, loss: 50 %, burst: 20, topology: "
-                          "predecessor_and_leader, platoon_law: {leader_weight: 0.9}}",
+                          "predecessor_and_leader, platoon_law: {bandwidth: 0.4 1/s}}",
                           std::string("seed=") + seed});
         plan.exit_m = 1500.0;
         plan.green_from_s = 3.0;
@@ -233,6 +233,23 @@ TEST(Platoons, AllFollowersDriveWithThePlatoonLeaderIfNoMessageIsLost) {
     for (int k = 1; k < track.count(0); ++k) {
         EXPECT_EQ(receiver_of(track, 0, k).driving_mode, V2vMode::platoon_leader);
     }
+}
+
+// A platoon of ten vehicles is 75 m long. With a range of 40 m, it splits into platoons within the range, and nearly
+// all vehicles still drive with a platoon leader.
+TEST(Platoons, APlatoonSplitsWhereTheRangeEnds) {
+    Track track = moving_platoon("{interval: 100 ms, topology: predecessor_and_leader, range: 40 m}");
+    track.run(20.0);
+    int with_leader = 0;
+    int platoons = 0;
+    for (int k = 0; k < track.count(0); ++k) {
+        const V2vReceiver& receiver = receiver_of(track, 0, k);
+        EXPECT_LT(receiver.place_in_platoon, 6);
+        with_leader += receiver.driving_mode == V2vMode::platoon_leader ? 1 : 0;
+        platoons += receiver.place_in_platoon == 0 ? 1 : 0;
+    }
+    EXPECT_GE(platoons, 2);
+    EXPECT_GE(with_leader, track.count(0) - platoons - 1);
 }
 
 TEST(Platoons, WithTheTopologyPredecessorNobodyDrivesWithThePlatoonLeader) {

@@ -57,12 +57,13 @@ const Table& fallback_table() {
 
 const Table& platoon_law_table() {
     using S = PlatoonLawSettings;
+    // With larger values vehicles overlap if the channel loses messages in bursts.
     static const Table table =
         make_table<S>("following with the messages of the platoon leader (Rajamani 2000)",
                       {
-                          number<&S::leader_weight>("leader_weight", "", {0, 0.99}, "weight of the platoon leader, C1"),
-                          number<&S::damping>("damping", "", {1, 10}, "damping ratio, xi"),
-                          number<&S::bandwidth_1ps>("bandwidth", "1/s", {0.01, 10}, "bandwidth, omega_n"),
+                          number<&S::leader_weight>("leader_weight", "", {0, 0.5}, "weight of the platoon leader, C1"),
+                          number<&S::damping>("damping", "", {1, 1.5}, "damping ratio, xi"),
+                          number<&S::bandwidth_1ps>("bandwidth", "1/s", {0.01, 0.4}, "bandwidth, omega_n"),
                       });
     return table;
 }
