@@ -169,7 +169,7 @@ std::vector<std::string> range_warnings(const Scenario& scenario) {
     if (driver.v2v.topology != V2vSettings{}.topology) without_effect("driver.v2v.topology");
     if (driver.v2v.fallback != FallbackSettings{}) without_effect("driver.v2v.fallback");
     if (driver.platoon.max_vehicles != kAnyLength && !relays_starts(scenario)) {
-        lines.push_back(
+        lines.emplace_back(
             "driver.platoon.max_vehicles has no effect: no vehicle keeps a constant distance (the model "
             "constant_distance of the mesoscale mode)");
     }

@@ -62,8 +62,8 @@ public:
     void run() {
         if (state_.tick % cooperation_.search_ticks == 0) add_requests();
         std::size_t kept = 0;
-        for (std::size_t k = 0; k < requests_.size(); ++k) {
-            if (keep(requests_[k])) requests_[kept++] = requests_[k];
+        for (GapRequest& request : requests_) {
+            if (keep(request)) requests_[kept++] = request;
         }
         requests_.resize(kept);
     }

@@ -53,12 +53,6 @@ struct GapCounts {
     std::int64_t& of(GapEnding ending) { return endings[static_cast<std::size_t>(ending)]; }
     std::int64_t of(GapEnding ending) const { return endings[static_cast<std::size_t>(ending)]; }
 
-    std::int64_t cancelled() const {
-        std::int64_t sum = 0;
-        for (std::size_t k = static_cast<std::size_t>(GapEnding::expired); k < endings.size(); ++k) sum += endings[k];
-        return sum;
-    }
-
     void add(const GapCounts& other) {
         requested += other.requested;
         agreed += other.agreed;
