@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "scenario/make_network.h"
 namespace stopline {
 
 namespace {
@@ -55,7 +56,8 @@ Figure intersection_picture(const IntersectionReport& report, std::size_t popula
     const Scenario& scenario = report.scenario;
     const IntersectionResult& figures = report.populations[population];
     const IntersectionSettings& layout = scenario.network.intersection;
-    const LaneGraph graph = make_intersection(layout);
+    LaneGraph graph = make_intersection(layout);
+    assign_phase_groups(scenario, graph);
     Figure figure;
     figure.name = "intersection";
     figure.width_px = figure.height_px = 900;

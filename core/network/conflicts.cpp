@@ -81,6 +81,8 @@ int rank(Turn turn) { return turn == Turn::left ? 2 : turn == Turn::right ? 1 : 
 
 }  // namespace
 
+bool yields_by_turn(Turn one, Turn two) { return rank(one) > rank(two); }
+
 double shared_stretch_m(const Polyline& a, const Polyline& b, double clearance_m) {
     const double end_m = std::min(length_m(a), length_m(b));
     double s = 0.0;
@@ -108,8 +110,8 @@ void find_conflicts(LaneGraph& graph, double clearance_m, int first, int stop) {
             const std::optional<Conflict> c = areas_of(one, two, clearance_m);
             if (!c) continue;
             const bool same_stage = stage(one) == stage(two);
-            const bool one_yields = same_stage && rank(one.turn) > rank(two.turn);
-            const bool two_yields = same_stage && rank(two.turn) > rank(one.turn);
+            const bool one_yields = same_stage && yields_by_turn(one.turn, two.turn);
+            const bool two_yields = same_stage && yields_by_turn(two.turn, one.turn);
             graph.conflicts[at(i)].push_back(
                 {k, c->from_m, c->to_m, c->other_from_m, c->other_to_m, one_yields, two_yields});
             graph.conflicts[at(k)].push_back(

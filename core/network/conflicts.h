@@ -15,6 +15,10 @@ double shared_stretch_m(const Polyline& a, const Polyline& b, double clearance_m
 // this connection and `two` is the other. The caller sets the members `other`, `yields` and `other_yields`.
 std::optional<Conflict> conflict_of(const Lane& one, const Lane& two, double clearance_m);
 
+// Returns true if a movement with the turn `one` yields to a movement with the turn `two` when both have a permissive
+// green. A left turn yields to right turns and to straight traffic, and a right turn yields to straight traffic.
+bool yields_by_turn(Turn one, Turn two);
+
 // Finds the conflicts between the connections with the lane indices first .. stop - 1, and adds these conflicts to
 // graph.conflicts, which must have one list per lane. Two connections conflict if their centre lines come closer than
 // `clearance_m`. Connections of the same approach lane do not conflict, because their vehicles follow each other. If

@@ -3,11 +3,16 @@
 
 #include "network/lane_graph.h"
 #include "network/network_settings.h"
+#include "scenario/scenario.h"
 
 namespace stopline {
 
 // Builds the lane graph of the network. Files that it names must have been read before (NetworkKind::import_files).
 LaneGraph make_network(const NetworkSettings& network);
+
+// Sets the signal groups of an intersection or a grid as the phases of the scenario need them. Movements with the same
+// lights share a group. Without phases, the groups stay as they are.
+void assign_phase_groups(const Scenario& scenario, LaneGraph& graph);
 
 // Returns the distance from the stop line at the end of `lane` to the centre of the intersection, m. Returns 0 for
 // imported networks, whose intersections have no radius.

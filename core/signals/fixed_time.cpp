@@ -9,16 +9,26 @@ namespace stopline {
 namespace {
 
 NominalCycle nominal_cycle_of(const SignalSettings& settings, int groups) {
+    if (settings.has_phases()) return phase_cycle(settings);
     if (groups == 1) return {settings.cycle_s, settings.green_s};
     return {settings.intersection_cycle_s(), std::max(settings.group_green_s(0), settings.group_green_s(1))};
 }
 
 std::int64_t next_change_tick(const SignalView& view) {
     std::int64_t next_tick = std::numeric_limits<std::int64_t>::max();
+    if (!view.plan().phases.empty()) next_tick = view.plan().phase_at.next_change_tick(view.tick());
     for (const GroupProgramme& programme : view.plan().programmes) {
         next_tick = std::min(next_tick, programme.next_change_tick(view.tick()));
     }
     return next_tick;
+}
+
+// Begins the phase that starts at the present tick, if there is one.
+void begin_phase(SignalView& view) {
+    if (view.plan().phases.empty()) return;
+    const Timeline<int>& phases = view.plan().phase_at;
+    if (phases.at(view.tick()) >= 0 && phases.start_tick(view.tick()) == view.tick())
+        view.begin_phase(phases.at(view.tick()));
 }
 
 std::int64_t init(SignalView& view) {
@@ -27,6 +37,7 @@ std::int64_t init(SignalView& view) {
         view.begin_with(group, programme.light(view.tick()), programme.light_start_tick(view.tick()),
                         programme.last_green_start_tick(view.tick()));
     }
+    begin_phase(view);
     return next_change_tick(view);
 }
 
@@ -34,6 +45,7 @@ std::int64_t step(SignalView& view) {
     for (int group = 0; group < view.groups(); ++group) {
         view.show(group, view.plan().programmes[static_cast<std::size_t>(group)].light(view.tick()));
     }
+    begin_phase(view);
     return next_change_tick(view);
 }
 
@@ -46,6 +58,7 @@ extern const SignalController kFixedTimeController{
     .nominal_cycle = nominal_cycle_of,
     .init = init,
     .step = step,
-    .follows_programme = true};
+    .follows_programme = true,
+    .runs_phases = true};
 
 }  // namespace stopline

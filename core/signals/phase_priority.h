@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace stopline {
@@ -13,6 +14,16 @@ struct Priority {
     bool second_yields = false;
 
     bool operator==(const Priority&) const = default;
+};
+
+// The right of way of two connections in each phase of a signal with phases (signals/signal_phases.h).
+struct PriorityByPhase {
+    int signal = 0;   // index of the signal
+    int first = -1;   // lane index of a connection
+    int second = -1;  // lane index of the other connection
+    // [phase] A phase without a value keeps the right of way of the phase before it, because vehicles that entered in
+    // that phase may still be inside.
+    std::vector<std::optional<Priority>> by_phase;
 };
 
 struct PriorityStage {

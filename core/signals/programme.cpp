@@ -21,6 +21,9 @@ GroupProgramme::GroupProgramme(std::vector<Stage> stages, std::int64_t offset_ti
     if (stages_.empty()) throw InputError("signal programme: at least one stage is needed");
 }
 
+GroupProgramme::GroupProgramme(Timeline<Light> lights, std::int64_t cycle_ticks)
+    : offset_(lights.first_tick()), cycle_(cycle_ticks), repeats_(true), timeline_(std::move(lights)) {}
+
 GroupProgramme::StageStart GroupProgramme::stage_at(std::int64_t tick) const {
     std::int64_t start = offset_ + (tick - offset_) / cycle_ * cycle_;
     std::size_t stage = 0;
@@ -29,18 +32,21 @@ GroupProgramme::StageStart GroupProgramme::stage_at(std::int64_t tick) const {
 }
 
 Light GroupProgramme::light(std::int64_t tick) const {
+    if (!timeline_.empty()) return timeline_.at(tick);
     if (tick < offset_) return Light::red;
     if (!repeats_ && tick >= offset_ + cycle_) return Light::red;
     return stages_[stage_at(tick).stage].light;
 }
 
 std::int64_t GroupProgramme::light_start_tick(std::int64_t tick) const {
+    if (!timeline_.empty()) return timeline_.start_tick(tick);
     if (tick < offset_) return 0;
     if (!repeats_ && tick >= offset_ + cycle_) return offset_ + cycle_;
     return stage_at(tick).tick;
 }
 
 std::int64_t GroupProgramme::next_change_tick(std::int64_t tick) const {
+    if (!timeline_.empty()) return timeline_.next_change_tick(tick);
     if (tick < offset_) return offset_;
     if (!repeats_ && tick >= offset_ + cycle_) return std::numeric_limits<std::int64_t>::max();
     const StageStart start = stage_at(tick);

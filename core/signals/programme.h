@@ -10,6 +10,7 @@
 
 #include "network/street_settings.h"
 #include "signals/signal_settings.h"
+#include "signals/timeline.h"
 
 namespace stopline {
 
@@ -29,6 +30,9 @@ class GroupProgramme {
 public:
     // Throws InputError if there is no stage or if a stage lasts less than one tick.
     GroupProgramme(std::vector<Stage> stages, std::int64_t offset_ticks, bool repeats);
+    // Makes a programme whose cycles can differ. `lights` has at least one part, and `cycle_ticks` is its cycle for
+    // measures and rules that need a single one.
+    GroupProgramme(Timeline<Light> lights, std::int64_t cycle_ticks);
 
     Light light(std::int64_t tick) const;
     // Returns the tick at which the stage at `tick` began. The result can be negative, because the offset can be
@@ -57,6 +61,7 @@ private:
     std::int64_t offset_;
     std::int64_t cycle_ = 0;
     bool repeats_;
+    Timeline<Light> timeline_;  // empty: the members above apply
 };
 
 // Makes a programme of green, yellow, and red for the rest of the cycle. If `settings.cycle_s` is 0, the programme does

@@ -34,13 +34,6 @@ struct SignalProblem {
     std::string message;
 };
 
-// The cycle and the green time that rules and measures use where they need a constant. A controller that reacts to
-// traffic gives the values that it would have in steady traffic.
-struct NominalCycle {
-    double cycle_s = 0.0;  // 0: the signal does not repeat
-    double longest_green_s = 0.0;
-};
-
 struct SignalController {
     const char* name;
     const char* meaning;  // description in lists for the user
@@ -63,6 +56,8 @@ struct SignalController {
     // True: the lights follow SignalPlan::programmes, whatever the traffic does. The controller then sees no detectors,
     // and the state hash leaves its lights and memory out.
     bool follows_programme = false;
+    // True: the controller can run phases (SignalPlan::phases).
+    bool runs_phases = false;
 };
 
 // Returns all registered controllers.

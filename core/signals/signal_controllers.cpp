@@ -17,6 +17,7 @@ static std::vector<const SignalController*>& controllers() {
     static std::vector<const SignalController*> all{
         // NOLINTBEGIN(readability-identifier-naming): the macro declares constants of the namespace inside a function.
         STOPLINE_DEFINED_ELSEWHERE(SignalController, kFixedTimeController),
+        STOPLINE_DEFINED_ELSEWHERE(SignalController, kActuatedController),
         // NOLINTEND(readability-identifier-naming)
     };
     return all;
@@ -92,6 +93,17 @@ SignalPlan fixed_time_plan(std::vector<int> groups, std::vector<GroupProgramme> 
     plan.groups = std::move(groups);
     plan.nominal_cycle_ticks = programmes.at(0).cycle_ticks();
     plan.programmes = std::move(programmes);
+    return plan;
+}
+
+SignalPlan make_phase_signal_plan(const SignalSettings& settings, int first_group,
+                                  std::span<const std::string> movements, double step_s, std::int64_t end_tick) {
+    PhasePlan phases = make_phase_plan(settings, movements, step_s);
+    PhaseTimelines timelines = make_phase_timelines(phases, static_cast<int>(movements.size()),
+                                                    to_ticks(settings.first_green_s, step_s), end_tick);
+    SignalPlan plan = make_signal_plan(settings, first_group, std::move(timelines.programmes), step_s);
+    plan.phases = std::move(phases);
+    plan.phase_at = std::move(timelines.phase);
     return plan;
 }
 

@@ -3,9 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "signals/programme.h"
+#include "signals/signal_phases.h"
 #include "signals/signal_settings.h"
 
 namespace stopline {
@@ -23,6 +26,8 @@ struct SignalPlan {
     SignalSettings settings;     // as in the scenario; not used by `fixed_time`
     std::vector<double> values;  // parameters in the order of SignalController::parameters, SI units
     double step_s = 0.0;
+    PhasePlan phases;                      // empty: the signal has no phases
+    Timeline<int> phase_at;                // phase of the fixed-time programme, see PhaseTimelines; empty: no phases
     std::int64_t nominal_cycle_ticks = 0;  // cycle for measures and rules that need one; see NominalCycle
 };
 
@@ -64,5 +69,9 @@ SignalPlan fixed_time_plan(std::vector<int> groups, std::vector<GroupProgramme> 
 // Makes the plan of a signal with the controller that the settings name. Throws InputError for an unknown name.
 SignalPlan make_signal_plan(const SignalSettings& settings, int first_group, std::vector<GroupProgramme> programmes,
                             double step_s);
+
+// As above, for a signal with phases. `movements`: the name of a movement of each group. `end_tick`: end of the run.
+SignalPlan make_phase_signal_plan(const SignalSettings& settings, int first_group,
+                                  std::span<const std::string> movements, double step_s, std::int64_t end_tick);
 
 }  // namespace stopline

@@ -15,6 +15,7 @@ namespace stopline {
 struct SignalDetector {
     int number = -1;           // index of the detector in the model
     int group = 0;             // group of the signal that controls the lane
+    std::uint64_t groups = 0;  // all groups that control movements of the lane; bit k: group k of the signal
     double to_line_m = 0.0;    // distance from the detector to the stop line
     bool is_occupied = false;  // a vehicle covers the detector
     // Tick at the end of the step in which a front passed the detector last; -1: never.
@@ -27,6 +28,9 @@ struct SignalState {
     std::vector<Light> lights;                      // [signal group] light at the present tick
     std::vector<std::int64_t> since_tick;           // [signal group] tick at which the present light began
     std::vector<std::int64_t> green_start_tick;     // [signal group] start of the latest green, or kNoGreen
+    std::vector<int> phase;                         // [signal] phase whose green began last; -1: none, or no phases
+    std::vector<std::int64_t> phase_start_tick;     // [signal] tick at which this green began
+    std::int64_t last_phase_start_tick = -1;        // the latest of phase_start_tick; -1: no phase has begun
     std::vector<std::int64_t> next_step_tick;       // [signal] tick at which the controller decides next
     std::int64_t first_step_tick = 0;               // the earliest of next_step_tick
     std::vector<std::vector<std::int64_t>> memory;  // [signal] numbers that the controller keeps
@@ -56,6 +60,13 @@ public:
         state_.lights[index(group)] = light;
         state_.since_tick[index(group)] = tick_;
         if (light == Light::green) state_.green_start_tick[index(group)] = tick_;
+    }
+    // Begins the green of a phase of SignalPlan::phases at the present tick. Right of way changes with it. The caller
+    // also shows the lights.
+    void begin_phase(int phase) {
+        state_.phase[signal_] = phase;
+        state_.phase_start_tick[signal_] = tick_;
+        state_.last_phase_start_tick = tick_;
     }
     // Sets the light with which a run begins. `since_tick` may be below 0. `green_start_tick`: start of the latest
     // green, or kNoGreen.

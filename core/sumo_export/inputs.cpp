@@ -82,20 +82,40 @@ void write_connections(const std::filesystem::path& file, const LaneGraph& graph
     xml.finish();
 }
 
+// Returns the signal group of a connection (lane index `connection`; -1: none) that begins on the lane `from`.
+int signal_group_of(const LaneGraph& graph, int from, int connection) {
+    const int own = connection < 0 ? -1 : graph.lanes[at(connection)].movement_signal_group;
+    return own >= 0 ? own : graph.lanes[at(from)].signal_group;
+}
+
+// Returns true if a connection yields to the other connection of a conflict in the phase of the signal at `tick`.
+bool yields_at(const Model& model, int connection, const Conflict& conflict, std::int64_t tick) {
+    for (const PriorityByPhase& changing : model.priorities_by_phase) {
+        const bool is_first = changing.first == connection && changing.second == conflict.other;
+        const bool is_second = changing.second == connection && changing.first == conflict.other;
+        if (!is_first && !is_second) continue;
+        const int phase = model.signals[at(changing.signal)].phase_at.at(tick);
+        if (phase < 0 || !changing.by_phase[at(phase)]) return false;
+        const Priority priority = *changing.by_phase[at(phase)];
+        return is_first ? priority.first_yields : priority.second_yields;
+    }
+    return conflict.yields;
+}
+
 // Returns SUMO's letter for the light of a connection at `tick`. 'G' is green with priority. 'g' is green for a
 // connection that yields to another connection with green.
 char link_state(const Model& model, const PlainConnection& c, std::int64_t tick) {
-    const auto light_of = [&](int lane) {
-        return model.signals.programme(model.graph.lanes[at(lane)].signal_group).light(tick);
+    const auto light_of = [&](int from, int connection) {
+        return model.signals.programme(signal_group_of(model.graph, from, connection)).light(tick);
     };
-    const Light light = light_of(c.from);
+    const Light light = light_of(c.from, c.connection_lane);
     if (light != Light::green) return light == Light::yellow ? 'y' : 'r';
     if (c.connection_lane < 0) return 'G';
     const std::vector<Conflict>& conflicts = model.graph.conflicts_of(c.connection_lane);
     const bool yields = std::any_of(conflicts.begin(), conflicts.end(), [&](const Conflict& conflict) {
         const int origin = model.graph.lanes[at(conflict.other)].origin;
-        return conflict.yields && origin >= 0 && model.graph.lanes[at(origin)].signal_group >= 0 &&
-               light_of(origin) == Light::green;
+        return origin >= 0 && model.graph.lanes[at(origin)].signal_group >= 0 &&
+               light_of(origin, conflict.other) == Light::green && yields_at(model, c.connection_lane, conflict, tick);
     });
     return yields ? 'g' : 'G';
 }
@@ -126,19 +146,24 @@ std::vector<Phase> phases_of(const Model& model, const PlainNetwork& network, in
     for (const PlainConnection& c : network.connections) {
         if (c.node != node || c.link < 0) continue;
         links.push_back(&c);
-        groups.push_back(model.graph.lanes[at(c.from)].signal_group);
+        groups.push_back(signal_group_of(model.graph, c.from, c.connection_lane));
     }
     std::vector<Phase> phases;
     const std::int64_t ticks = programme_ticks(model, groups, run_ticks);
     std::vector<Light> previous_lights;
+    int previous_phase = -1;
+    const Timeline<int>* const phase_at = groups.empty() ? nullptr : &model.signals.plan_of(groups[0]).phase_at;
     for (std::int64_t tick = 0; tick < ticks; ++tick) {
         std::vector<Light> lights;
         for (const int group : groups) lights.push_back(model.signals.programme(group).light(tick));
-        if (lights != previous_lights) {
+        // Right of way can change between phases although the lights stay the same.
+        const int phase = phase_at == nullptr || phase_at->empty() ? -1 : phase_at->at(tick);
+        if (lights != previous_lights || phase != previous_phase) {
             std::string text;
             for (const PlainConnection* const c : links) text += link_state(model, *c, tick);
             phases.push_back({0, text});
             previous_lights = lights;
+            previous_phase = phase;
         }
         ++phases.back().ticks;
     }

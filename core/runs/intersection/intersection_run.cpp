@@ -225,8 +225,8 @@ IntersectionResult run_intersection(const Scenario& scenario, std::size_t popula
     result.complete = true;
     QueueSampler sampler(model, result.window);
     const std::int64_t end_tick = to_ticks(result.window.to_s, model.step_s);
-    const double second_stage_s = result.window.from_s + scenario.signal.stage_s(0);
-    const std::int64_t snapshot_tick = to_ticks(second_stage_s + 0.5 * scenario.signal.group_green_s(1), model.step_s);
+    const std::int64_t snapshot_tick =
+        to_ticks(result.window.from_s + second_green_middle_s(scenario.signal), model.step_s);
     while (simulation.state().tick < end_tick) {
         if (on_step && !on_step(simulation)) {
             result.complete = false;

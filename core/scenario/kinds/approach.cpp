@@ -45,6 +45,7 @@ std::vector<OuterLeg> approach_legs(const NetworkSettings& network) {
 void check_approach(const Scenario& scenario, Checker& check) {
     refuse_cross_inflow(scenario, check);
     refuse_turns(scenario.demand, "a straight road", check);
+    refuse_phases(scenario, "a straight road", check);
     check_signal_steps(scenario, check);
     check_green_times(scenario, check);
     check_queue(scenario, check);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -43,10 +44,18 @@ std::vector<Row<NetworkSettings>> grid_fields() {
 }
 
 void add_grid_signals(const Scenario& scenario, Model& model) {
+    const bool has_phases = scenario.signal.has_phases();
+    const double cycle_s = has_phases ? first_cycle_s(scenario.signal) : scenario.signal.intersection_cycle_s();
+    std::vector<double> first_green_s;
     for (const GridPosition& place : grid_positions(scenario.network.grid)) {
-        SignalSettings signal = scenario.signal;
         // Whole cycles are removed from the offset, so that the initial red is as short as possible.
-        signal.first_green_s += std::fmod((place.column + place.row) * signal.offset_s, signal.intersection_cycle_s());
+        first_green_s.push_back(scenario.signal.first_green_s +
+                                std::fmod((place.column + place.row) * scenario.signal.offset_s, cycle_s));
+    }
+    if (has_phases) return add_phase_signals(scenario, first_green_s, model);
+    for (const double start_s : first_green_s) {
+        SignalSettings signal = scenario.signal;
+        signal.first_green_s = start_s;
         model.signals.add(make_signal_plan(signal, model.signals.groups(),
                                            make_stage_programmes(signal, 2, scenario.tick_s()), scenario.tick_s()));
     }
@@ -56,6 +65,7 @@ void check_grid(const Scenario& scenario, Checker& check) {
     check_turn_shares(scenario, check);
     refuse_cycle(scenario, check);
     check_signal_steps(scenario, check);
+    check_phases(scenario, check);
     check_green_times(scenario, check);
     check_grid_links(scenario, check);
 }

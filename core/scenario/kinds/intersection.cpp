@@ -58,6 +58,7 @@ const Table& intersection_table() {
 std::vector<Row<NetworkSettings>> intersection_fields() { return {intersection_section()}; }
 
 void add_intersection_signals(const Scenario& scenario, Model& model) {
+    if (scenario.signal.has_phases()) return add_phase_signals(scenario, {scenario.signal.first_green_s}, model);
     model.signals.add(make_signal_plan(
         scenario.signal, 0, make_stage_programmes(scenario.signal, model.graph.signal_groups, scenario.tick_s()),
         scenario.tick_s()));
@@ -109,6 +110,7 @@ void check_intersection(const Scenario& scenario, Checker& check) {
     check_turn_shares(scenario, check);
     refuse_cycle(scenario, check);
     check_signal_steps(scenario, check);
+    check_phases(scenario, check);
     check_duration(scenario, check);
     check_zones(scenario, check);
 }

@@ -46,9 +46,16 @@ void check_green_times(const Scenario& scenario, Checker& check) {
 }
 
 void refuse_cycle(const Scenario& scenario, Checker& check) {
-    if (scenario.signal.cycle_s == 0.0) return;
-    check.error("signal.cycle", "must be left out here: it follows from green, cross_green, yellow and all_red, " +
-                                    short_text(scenario.signal.intersection_cycle_s(), unit("s")));
+    const SignalSettings& signal = scenario.signal;
+    if (signal.cycle_s == 0.0) return;
+    const std::string times = signal.has_phases() ? "the phases, " : "green, cross_green, yellow and all_red, ";
+    check.error("signal.cycle", "must be left out here: it follows from " + times +
+                                    short_text(scenario.nominal_cycle().cycle_s, unit("s")));
+}
+
+void refuse_phases(const Scenario& scenario, const std::string& network, Checker& check) {
+    if (!scenario.signal.has_phases()) return;
+    check.error(scenario.signal.phases.empty() ? "signal.programmes" : "signal.phases", "is not for " + network);
 }
 
 void refuse_green_counts(const Scenario& scenario, Checker& check) {

@@ -5,15 +5,17 @@
 #include <utility>
 
 #include "base/containers/index.h"
+#include "network/side.h"
 #include "scenario/kinds/kind_parts.h"
 
 namespace stopline {
 
 namespace {
 
-// Returns true for an approach lane from south or north. In grids and single intersections, these lanes have the odd
-// signal group of their intersection.
-bool from_south_or_north(const LaneGraph& graph, int lane) { return graph.lanes[at(lane)].signal_group % 2 == 1; }
+bool from_south_or_north(const LaneGraph& graph, int lane) {
+    const Side side = comes_from(graph.lanes[at(lane)]);
+    return side == Side::south || side == Side::north;
+}
 
 // Returns the share of the vehicles on the first lane of a route that take this route, 0 .. 1. The share follows from
 // the turn shares of the demand.

@@ -73,6 +73,59 @@ void add_controller_parameters(std::index_sequence<Index...> /*indices*/, std::v
     (add.template operator()<Index>(), ...);
 }
 
+const Table& phase_table() {
+    using S = PhaseSettings;
+    static const Table table = make_table<S>(
+        "a phase: the movements with green, then yellow for those that lose green, then red for all of these",
+        {
+            texts<&S::protected_movements>(
+                "protected", TextField::Rule::name, {0, 12},
+                "movements with a protected green, named by side and turn, such as west_left; no two of them conflict")
+                .fallback("[]"),
+            texts<&S::permissive_movements>(
+                "permissive", TextField::Rule::name, {0, 12},
+                "movements with a permissive green: they yield to conflicting movements with a protected green; among "
+                "themselves, left turns yield to right turns, and both yield to straight traffic")
+                .fallback("[]"),
+            number<&S::green_s>("green", "s", {0.1, 7200},
+                                "green time; a phase without movements (pedestrians) takes its green, yellow and "
+                                "all-red times, too")
+                .required(),
+            number<&S::yellow_s>("yellow", "s", {0, 60}, "yellow time"),
+            number<&S::all_red_s>("all_red", "s", {0, 600}, "red time between the yellow and the next phase"),
+            number<&S::min_green_s>("min_green", "s", {0.1, 7200}, "controllers that react to traffic: minimum green"),
+            number<&S::max_green_s>(
+                "max_green", "s", {0, 7200},
+                "controllers that react to traffic: maximum green, from the first call of another phase; 0 s: same as "
+                "green"),
+            number<&S::gap_s>("gap", "s", {0.1, 60},
+                              "controllers that react to traffic: green ends when no detector of the phase has been "
+                              "occupied for this time (unit extension)"),
+            choice<&S::recall>(
+                "recall", {"off", "minimum", "maximum"},
+                "controllers that react to traffic; minimum: the phase is served in each cycle; maximum: "
+                "it is served in each cycle for its maximum green"),
+        },
+        [](const S& s, Checker& check) {
+            if (s.min_green_s <= s.longest_green_s() || !check.given("min_green")) return;
+            check.error("min_green",
+                        seconds(s.min_green_s) + " is longer than the maximum green, " + seconds(s.longest_green_s()));
+        });
+    return table;
+}
+
+const Table& phase_programme_table() {
+    using S = ProgrammeSettings;
+    static const Table table = make_table<S>(
+        "a programme of phases, in force until the next programme begins",
+        {
+            number<&S::from_s>("from", "h", {0, 23.99}, "time of day at which the programme comes into force")
+                .required(),
+            list<&S::phases>("phases", phase_table, {1, 32}, "phases in the order of their greens").required(),
+        });
+    return table;
+}
+
 std::vector<Row<SignalSettings>> signal_rows() {
     std::vector<Row<SignalSettings>> rows{
         choice<&SignalSettings::controller>("controller", signal_controller_names(),
@@ -94,6 +147,18 @@ std::vector<Row<SignalSettings>> signal_rows() {
             "the next one northwards"),
         number<&SignalSettings::cycle_s>("cycle", "s", {0, 14'400},
                                          "single light: time from one green to the next; 0 s: one green only"),
+        list<&SignalSettings::phases>(
+            "phases", phase_table, {0, 32},
+            "intersections and grids: phases in the order of their greens; they replace green, cross_green, yellow and "
+            "all_red; a movement with green in two successive phases keeps its green between them")
+            .fallback("[]"),
+        list<&SignalSettings::programmes>(
+            "programmes", phase_programme_table, {0, 24},
+            "intersections and grids: several programmes by time of day, instead of `phases`; a programme begins at the "
+            "end of the cycle in which it comes into force")
+            .fallback("[]"),
+        number<&SignalSettings::clock_s>("clock", "h", {0, 23.99},
+                                         "time of day at the start of the run, for `programmes`"),
     };
     add_controller_parameters(std::make_index_sequence<kMaxSignalParameters>(), rows);
     return rows;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "base/containers/index.h"
 #include "sim/state/queries/stopping_distance.h"
@@ -34,9 +35,36 @@ void keep_priority_of_unstoppable(const Model& model, State& state, int lane, in
     }
 }
 
+// Returns the present right of way between two connections.
+Priority present_priority(const State& state, int first, int second) {
+    for (const Conflict& conflict : state.plan.conflicts(first)) {
+        if (conflict.other == second) return {conflict.yields, conflict.other_yields};
+    }
+    return {};
+}
+
+void change_priority(const Model& model, State& state, int first, int second, Priority before, Priority now) {
+    state.plan.set_priority(first, second, now);
+    if (now.first_yields && !before.first_yields) keep_priority_of_unstoppable(model, state, first, second);
+    if (now.second_yields && !before.second_yields) keep_priority_of_unstoppable(model, state, second, first);
+}
+
+// Sets the right of way of the phases that begin at the present tick.
+void begin_phases(const Model& model, State& state) {
+    if (state.signals.last_phase_start_tick != state.tick) return;
+    for (const PriorityByPhase& changing : model.priorities_by_phase) {
+        if (state.signals.phase_start_tick[at(changing.signal)] != state.tick) continue;
+        const std::optional<Priority>& now = changing.by_phase[at(state.signals.phase[at(changing.signal)])];
+        if (!now) continue;
+        const Priority before = present_priority(state, changing.first, changing.second);
+        if (*now != before) change_priority(model, state, changing.first, changing.second, before, *now);
+    }
+}
+
 }  // namespace
 
 void update_phase_priorities(const Model& model, State& state) {
+    if (!model.priorities_by_phase.empty()) begin_phases(model, state);
     if (state.tick < state.junctions.next_priority_tick) return;
     std::int64_t next_tick = std::numeric_limits<std::int64_t>::max();
     for (const PhasePriority& changing : model.phase_priorities) {
@@ -44,11 +72,7 @@ void update_phase_priorities(const Model& model, State& state) {
         next_tick = std::min(next_tick, changing.next_change_tick(state.tick));
         const Priority before = changing.at(state.tick - 1);
         if (state.tick > 0 && now == before) continue;
-        state.plan.set_priority(changing.first(), changing.second(), now);
-        if (now.first_yields && !before.first_yields)
-            keep_priority_of_unstoppable(model, state, changing.first(), changing.second());
-        if (now.second_yields && !before.second_yields)
-            keep_priority_of_unstoppable(model, state, changing.second(), changing.first());
+        change_priority(model, state, changing.first(), changing.second(), before, now);
     }
     state.junctions.next_priority_tick = next_tick;
 }

@@ -11,6 +11,20 @@ namespace stopline {
 
 namespace {
 
+// Returns the groups of a signal that control movements of a lane. Bit k stands for group k of the signal.
+std::uint64_t groups_of(const LaneGraph& graph, const SignalPlan& plan, const Lane& lane) {
+    std::uint64_t groups = 0;
+    const auto add = [&](int group) {
+        const auto found = std::find(plan.groups.begin(), plan.groups.end(), group);
+        if (found != plan.groups.end()) groups |= std::uint64_t{1} << (found - plan.groups.begin());
+    };
+    for (const int connection : lane.next) {
+        const int own = graph.lanes[at(connection)].movement_signal_group;
+        add(own >= 0 ? own : lane.signal_group);
+    }
+    return groups;
+}
+
 // Returns all detectors on the approach lanes of each signal whose controller reads detectors, in the order of
 // Model::detectors.
 std::vector<std::vector<SignalDetector>> signal_detectors(const Model& model) {
@@ -33,8 +47,9 @@ std::vector<std::vector<SignalDetector>> signal_detectors(const Model& model) {
         const Lane& lane = model.graph.lanes[at(detector.lane)];
         if (lane.signal_group < 0 || places[at(lane.signal_group)].group < 0) continue;
         const Place& place = places[at(lane.signal_group)];
-        detectors[place.signal].push_back(
-            {static_cast<int>(number), place.group, lane.stop_line_m - detector.position_m});
+        detectors[place.signal].push_back({static_cast<int>(number), place.group,
+                                           groups_of(model.graph, model.signals[place.signal], lane),
+                                           lane.stop_line_m - detector.position_m});
     }
     return detectors;
 }
@@ -55,6 +70,8 @@ void start_signals(const Model& model, State& state) {
     signals.lights.assign(groups, Light::red);
     signals.since_tick.assign(groups, 0);
     signals.green_start_tick.assign(groups, kNoGreen);
+    signals.phase.assign(model.signals.size(), -1);
+    signals.phase_start_tick.assign(model.signals.size(), -1);
     signals.next_step_tick.assign(model.signals.size(), 0);
     signals.memory.resize(model.signals.size());
     signals.detectors = signal_detectors(model);

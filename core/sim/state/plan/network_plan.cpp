@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <span>
 
 #include "base/containers/index.h"
@@ -184,6 +185,12 @@ NetworkPlan::NetworkPlan(const Model& model)
         for (const PriorityStage& stage : changing.stages()) {
             lanes_[at(changing.first())].yields |= stage.priority.first_yields;
             lanes_[at(changing.second())].yields |= stage.priority.second_yields;
+        }
+    }
+    for (const PriorityByPhase& changing : model.priorities_by_phase) {
+        for (const std::optional<Priority>& priority : changing.by_phase) {
+            lanes_[at(changing.first)].yields |= priority && priority->first_yields;
+            lanes_[at(changing.second)].yields |= priority && priority->second_yields;
         }
     }
     number_connections(model);

@@ -1,0 +1,273 @@
+// The actuated controller: it runs the phases of the signal in their order and skips phases without a call. The green of
+// a phase lasts at least its minimum. It then ends when another phase has a call, and either no detector of the phase
+// has been occupied for the gap, or its maximum has passed since the first call of another phase. Without a call of
+// another phase, the green goes on. Yellow and all-red times are constant.
+//
+// Each approach lane has two detectors. One of them is so near to the stop line that the first vehicle of a queue covers
+// it. The other one lies upstream. A lane has a call while a vehicle covers the first detector, and from the tick at
+// which a vehicle passes the second one at red. The call of a lane with several movements belongs to the phases that
+// give green to all of them. If there are none, it belongs to the phases that give green to one of them.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "signals/signal_controller.h"
+
+namespace stopline {
+
+namespace {
+
+// Indices in SignalPlan::values.
+constexpr std::size_t kStopDetector = 0;
+constexpr std::size_t kAdvanceDetector = 1;
+constexpr std::array kActuatedParameters{
+    SignalParameter{"stop_detector", "m", 0, 50, "3 m",
+                    "distance from the stop line of the detector that a queued vehicle covers"},
+    SignalParameter{"advance_detector", "m", 0, 500, "40 m",
+                    "distance from the stop line of the detector that extends green upstream; 0 m: none"}};
+
+enum class Interval : std::uint8_t { initial_red, green, yellow, all_red };
+
+// Indices in the memory of the controller. The ticks at which the groups last lost green follow (kGreenEnds + group).
+// kMaximumFrom: tick of the first call of another phase during the present green; -1: none.
+enum : std::size_t { kInterval, kPhase, kNextPhase, kStartTick, kMaximumFrom, kGreenEnds };
+
+class ActuatedSignal {
+public:
+    explicit ActuatedSignal(SignalView& view) : view_(view), plan_(view.plan().phases), memory_(view.memory()) {}
+
+    void reset() {
+        memory_[kInterval] = static_cast<std::int64_t>(Interval::initial_red);
+        memory_[kPhase] = memory_[kNextPhase] = -1;
+        for (int group = 0; group < view_.groups(); ++group) green_end(group) = -1;
+    }
+
+    // Sets the lights of the present tick. Returns the tick of the next decision.
+    std::int64_t step() {
+        switch (static_cast<Interval>(memory_[kInterval])) {
+            case Interval::initial_red:
+                return begin_green(first_phase());
+            case Interval::green:
+                return decide_green();
+            case Interval::yellow:
+                return begin_all_red();
+            case Interval::all_red:
+                break;
+        }
+        return begin_green(static_cast<int>(memory_[kNextPhase]));
+    }
+
+private:
+    const SignalPhase& phase(int number) const { return plan_.phases[static_cast<std::size_t>(number)]; }
+    int present() const { return static_cast<int>(memory_[kPhase]); }
+    std::int64_t& green_end(int group) { return memory_[kGreenEnds + static_cast<std::size_t>(group)]; }
+
+    void begin_interval(Interval interval) {
+        memory_[kInterval] = static_cast<std::int64_t>(interval);
+        memory_[kStartTick] = view_.tick();
+    }
+
+    std::int64_t begin_green(int next) {
+        begin_interval(Interval::green);
+        memory_[kPhase] = next;
+        memory_[kMaximumFrom] = -1;
+        for (int group = 0; group < view_.groups(); ++group) {
+            view_.show(group, phase(next).has_green(group) ? Light::green : Light::red);
+        }
+        view_.begin_phase(next);
+        if (called_phase() >= 0) memory_[kMaximumFrom] = view_.tick();
+        return view_.tick() + 1;
+    }
+
+    std::int64_t decide_green() {
+        const int next = called_phase();
+        if (next < 0) {
+            memory_[kMaximumFrom] = -1;
+            return view_.tick() + 1;
+        }
+        if (memory_[kMaximumFrom] < 0) memory_[kMaximumFrom] = view_.tick();
+        return may_end_green() ? begin_yellow(next) : view_.tick() + 1;
+    }
+
+    // Returns true if the present green may end in favour of another phase.
+    bool may_end_green() const {
+        const SignalPhase& own = phase(present());
+        const std::int64_t shown = view_.tick() - memory_[kStartTick];
+        if (own.green_groups == 0) return shown >= own.green_ticks;  // pedestrians
+        const std::int64_t maximum = std::max(own.max_green_ticks, own.min_green_ticks);
+        if (own.recall == Recall::maximum) return shown >= maximum;
+        if (shown < own.min_green_ticks) return false;
+        return view_.tick() - memory_[kMaximumFrom] >= maximum || gap_has_passed(own);
+    }
+
+    bool gap_has_passed(const SignalPhase& own) const {
+        const auto extends = [&](const SignalDetector& detector) {
+            const bool is_used = is_at(detector, kStopDetector) || is_at(detector, kAdvanceDetector);
+            return is_used && (detector.groups & own.green_groups) != 0 && detector.last_occupied_tick >= 0 &&
+                   view_.tick() - detector.last_occupied_tick < own.gap_ticks;
+        };
+        const auto detectors = view_.detectors();
+        return std::none_of(detectors.begin(), detectors.end(), extends);
+    }
+
+    std::int64_t begin_yellow(int next) {
+        memory_[kNextPhase] = next;
+        begin_interval(Interval::yellow);
+        for (int group = 0; group < view_.groups(); ++group) {
+            if (view_.light(group) != Light::green) continue;
+            const Light light = plan_.light_after(present(), next, group, Light::yellow);
+            view_.show(group, light);
+            if (light != Light::green) green_end(group) = view_.tick();
+        }
+        const std::int64_t ticks = phase(present()).yellow_ticks;
+        return ticks > 0 ? view_.tick() + ticks : begin_all_red();
+    }
+
+    std::int64_t begin_all_red() {
+        begin_interval(Interval::all_red);
+        for (int group = 0; group < view_.groups(); ++group) {
+            if (view_.light(group) == Light::yellow) view_.show(group, Light::red);
+        }
+        const std::int64_t ticks = phase(present()).all_red_ticks;
+        return ticks > 0 ? view_.tick() + ticks : begin_green(static_cast<int>(memory_[kNextPhase]));
+    }
+
+    // Returns the first phase of a run: the first one with a call, or else the first phase of the programme.
+    int first_phase() const {
+        const PhaseProgramme& programme = programme_now();
+        const int called = called_in(programme, programme.first_phase, programme.last_phase());
+        return called >= 0 ? called : programme.first_phase;
+    }
+
+    // Returns the next phase with a call, in the order of the cycle; -1: none. A new cycle uses the programme that is in
+    // force now.
+    int called_phase() const {
+        const PhaseProgramme& own = programme_of(present());
+        const int later = called_in(own, present() + 1, own.last_phase());
+        if (later >= 0) return later;
+        const PhaseProgramme& next = programme_now();
+        const bool is_same = next.first_phase == own.first_phase;
+        return called_in(next, next.first_phase, is_same ? present() - 1 : next.last_phase());
+    }
+
+    int called_in(const PhaseProgramme& programme, int first, int last) const {
+        for (int number = first; number <= last; ++number) {
+            if (has_call(programme, phase(number))) return number;
+        }
+        return -1;
+    }
+
+    const PhaseProgramme& programme_now() const {
+        return plan_.programmes[static_cast<std::size_t>(plan_.programme_at(view_.tick()))];
+    }
+    const PhaseProgramme& programme_of(int number) const {
+        std::size_t k = 0;
+        while (plan_.programmes[k].last_phase() < number) ++k;
+        return plan_.programmes[k];
+    }
+
+    bool has_call(const PhaseProgramme& programme, const SignalPhase& called) const {
+        if (called.recall != Recall::off) return true;
+        const auto calls = [&](const SignalDetector& detector) {
+            if ((detector.groups & called.green_groups) == 0 || !is_waiting(detector, called)) return false;
+            return serves_all(called, detector) || !has_full_service(programme, detector);
+        };
+        const auto detectors = view_.detectors();
+        return std::any_of(detectors.begin(), detectors.end(), calls);
+    }
+
+    static bool serves_all(const SignalPhase& phase, const SignalDetector& detector) {
+        return (detector.groups & ~phase.green_groups) == 0;
+    }
+    bool has_full_service(const PhaseProgramme& programme, const SignalDetector& detector) const {
+        for (int number = programme.first_phase; number <= programme.last_phase(); ++number) {
+            if (serves_all(phase(number), detector)) return true;
+        }
+        return false;
+    }
+
+    // Returns true if a vehicle on the detector's lane waits for a green that the phase would begin.
+    bool is_waiting(const SignalDetector& detector, const SignalPhase& called) const {
+        std::uint64_t green_groups = 0;
+        std::int64_t last_end = -1;
+        for (int group = 0; group < view_.groups(); ++group) {
+            if ((detector.groups >> group & 1U) == 0) continue;
+            if (view_.light(group) == Light::green) green_groups |= std::uint64_t{1} << group;
+            last_end = std::max(last_end, memory_[kGreenEnds + static_cast<std::size_t>(group)]);
+        }
+        if ((detector.groups & called.green_groups & ~green_groups) == 0) return false;
+        if (is_at(detector, kStopDetector)) return detector.is_occupied;
+        return is_at(detector, kAdvanceDetector) && green_groups == 0 && detector.last_crossing_tick > last_end;
+    }
+
+    bool is_at(const SignalDetector& detector, std::size_t parameter) const {
+        constexpr double kTolerance_m = 0.01;
+        const double to_line_m = view_.plan().values[parameter];
+        if (parameter == kAdvanceDetector && to_line_m <= 0.0) return false;
+        return std::abs(detector.to_line_m - to_line_m) < kTolerance_m;
+    }
+
+    SignalView& view_;
+    const PhasePlan& plan_;
+    std::span<std::int64_t> memory_;
+};
+
+std::int64_t start_actuated(SignalView& view) {
+    ActuatedSignal signal(view);
+    signal.reset();
+    const std::int64_t first_tick = to_ticks(view.plan().settings.first_green_s, view.plan().step_s);
+    return first_tick > view.tick() ? first_tick : signal.step();
+}
+
+NominalCycle actuated_cycle(const SignalSettings& settings, int /*groups*/) {
+    if (settings.has_phases()) return phase_cycle(settings);
+    return {settings.intersection_cycle_s(), settings.green_s};  // the settings are refused, see actuated_problems()
+}
+
+std::vector<double> actuated_detectors_m(const SignalSettings& settings) {
+    std::vector<double> to_line_m;
+    for (const SignalParameter& parameter : kActuatedParameters) {
+        if (const double value_m = signal_parameter(settings, parameter.name); value_m > 0.0)
+            to_line_m.push_back(value_m);
+    }
+    return to_line_m;
+}
+
+std::vector<SignalProblem> actuated_problems(const SignalSettings& settings, int /*groups*/) {
+    if (!settings.has_phases()) return {{"controller", "'actuated' needs signal.phases or signal.programmes"}};
+    std::vector<SignalProblem> problems;
+    const auto add_problems = [&](const std::vector<PhaseSettings>& phases, const std::string& field) {
+        for (std::size_t k = 0; k < phases.size(); ++k) {
+            const bool has_movements =
+                !phases[k].protected_movements.empty() || !phases[k].permissive_movements.empty();
+            if (has_movements || phases[k].recall != "off") continue;
+            problems.push_back({fmt::format("{}[{}].recall", field, k),
+                                "a phase without movements has no detectors: it needs the recall minimum or maximum"});
+        }
+    };
+    add_problems(settings.phases, "phases");
+    for (std::size_t k = 0; k < settings.programmes.size(); ++k) {
+        add_problems(settings.programmes[k].phases, fmt::format("programmes[{}].phases", k));
+    }
+    return problems;
+}
+
+}  // namespace
+
+extern const SignalController kActuatedController{
+    .name = "actuated",
+    .meaning =
+        "phases end at gaps in the traffic, between their minimum and maximum green, and are skipped without a call",
+    .parameters = kActuatedParameters,
+    .nominal_cycle = actuated_cycle,
+    .init = start_actuated,
+    .step = [](SignalView& view) { return ActuatedSignal(view).step(); },
+    .memory_size = [](const SignalPlan& plan) { return kGreenEnds + plan.groups.size(); },
+    .detectors_m = actuated_detectors_m,
+    .problems = actuated_problems,
+    .runs_phases = true};
+
+}  // namespace stopline
