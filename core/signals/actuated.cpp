@@ -1,12 +1,12 @@
-// The actuated controller: it runs the phases of the signal in their order and skips phases without a call. The green of
-// a phase lasts at least its minimum. It then ends when another phase has a call, and either no detector of the phase
-// has been occupied for the gap, or its maximum has passed since the first call of another phase. Without a call of
-// another phase, the green goes on. Yellow and all-red times are constant.
+// The actuated controller: it runs the phases of the signal in their order and skips phases without a call. The green
+// of a phase lasts at least its minimum. It then ends when another phase has a call, and either no detector of the
+// phase has been occupied for the gap, or its maximum has passed since the first call of another phase. Without a call
+// of another phase, the green goes on. Yellow and all-red times are constant.
 //
-// Each approach lane has two detectors. One of them is so near to the stop line that the first vehicle of a queue covers
-// it. The other one lies upstream. A lane has a call while a vehicle covers the first detector, and from the tick at
-// which a vehicle passes the second one at red. The call of a lane with several movements belongs to the phases that
-// give green to all of them. If there are none, it belongs to the phases that give green to one of them.
+// Each approach lane has two detectors. One of them is so near to the stop line that the first vehicle of a queue
+// covers it. The other one lies upstream. A lane has a call while a vehicle covers the first detector, and from the
+// tick at which a vehicle passes the second one at red. The call of a lane with several movements belongs to the phases
+// that give green to all of them. If there are none, it belongs to the phases that give green to one of them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -142,8 +142,8 @@ private:
         return called >= 0 ? called : programme.first_phase;
     }
 
-    // Returns the next phase with a call, in the order of the cycle; -1: none. A new cycle uses the programme that is in
-    // force now.
+    // Returns the next phase with a call, in the order of the cycle; -1: none. A new cycle uses the programme that is
+    // in force now.
     int called_phase() const {
         const PhaseProgramme& own = programme_of(present());
         const int later = called_in(own, present() + 1, own.last_phase());

@@ -79,8 +79,8 @@ struct PhaseTimelines {
 // Returns the programmes of the settings. SignalSettings::phases count as one programme.
 std::vector<ProgrammeSettings> phase_programmes(const SignalSettings& settings);
 
-// Returns the longest cycle and the longest green of all programmes. A movement that keeps its green into the next phase
-// has one green.
+// Returns the longest cycle and the longest green of all programmes. A movement that keeps its green into the next
+// phase has one green.
 NominalCycle phase_cycle(const SignalSettings& settings);
 // Returns the cycle of the programme that is in force at the start of the run, s.
 double first_cycle_s(const SignalSettings& settings);

@@ -9,8 +9,8 @@
 namespace stopline {
 namespace {
 
-// The mean green of a phase with Poisson arrivals at a point queue. The other phase is for pedestrians and has a constant
-// length, so the red of the first phase is constant, too.
+// The mean green of a phase with Poisson arrivals at a point queue. The other phase is for pedestrians and has a
+// constant length, so the red of the first phase is constant, too.
 struct PointQueue {
     double flow_1ps;
     double headway_s;

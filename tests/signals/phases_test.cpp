@@ -123,8 +123,8 @@ TEST(Phases, MovementsWithEqualLightsShareAGroup) {
     EXPECT_EQ(groups_with_equal_lights(settings, movements), (std::vector<int>{0, 1, 2, 3}));
 }
 
-// The morning programme comes into force at 06:30, that is 100 s after the start of the run. It begins at the end of the
-// cycle of the night programme that runs at this time.
+// The morning programme comes into force at 06:30, that is 100 s after the start of the run. It begins at the end of
+// the cycle of the night programme that runs at this time.
 TEST(Phases, AProgrammeBeginsAtTheEndOfACycle) {
     SignalSettings settings;
     settings.first_green_s = 0.0;
@@ -134,7 +134,8 @@ TEST(Phases, AProgrammeBeginsAtTheEndOfACycle) {
         {6.5 * 3600.0, {phase_of({"south_straight"}, {}, 30.0), phase_of({"west_straight"}, {"west_left"}, 40.0)}},
         {9.0 * 3600.0, {phase_of({"west_straight", "west_left"}, {}, 50.0), phase_of({"south_straight"}, {}, 5.0)}}};
     const PhaseTimelines timelines = timelines_of(settings, 3.0 * 3600.0);
-    // Three night cycles of 35 s end at 105 s. The south keeps its green at the end, because the morning begins with it.
+    // Three night cycles of 35 s end at 105 s. The south keeps its green at the end, because the morning begins with
+    // it.
     const std::string night = repeated('r', 20) + repeated('G', 10) + "yyyrr";
     const std::string last_night = repeated('r', 20) + repeated('G', 15);
     const std::string morning = repeated('G', 30) + "yyyrr" + repeated('r', 45);

@@ -1,5 +1,5 @@
-// Runs of intersections and grids whose signals have phases: protected and permissive left turns, pedestrians, programmes
-// by time of day.
+// Runs of intersections and grids whose signals have phases: protected and permissive left turns, pedestrians,
+// programmes by time of day.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -22,8 +22,8 @@ double intersection_radius_m(const NetworkSettings& network, const Lane& lane);
 // Sets the signal groups of an intersection or a grid (assign_phase_groups()) and the right of way of the phases. Adds
 // the signals, in the order of the intersections. `first_green_s`: start of the first phase of each intersection.
 void add_phase_signals(const Scenario& scenario, const std::vector<double>& first_green_s, Model& model);
-// Checks SignalSettings::phases and SignalSettings::programmes of an intersection or a grid. The names of movements must
-// exist. Each movement must have green. No two protected movements of a phase may conflict.
+// Checks SignalSettings::phases and SignalSettings::programmes of an intersection or a grid. The names of movements
+// must exist. Each movement must have green. No two protected movements of a phase may conflict.
 void check_phases(const Scenario& scenario, Checker& check);
 // Reports an error if the scenario sets phases. `network` describes the network in the message.
 void refuse_phases(const Scenario& scenario, const std::string& network, Checker& check);
