@@ -30,7 +30,7 @@ struct ScorecardCliOptions {
 
 void declare(Options& app, ScorecardCliOptions& options) {
     app.add("--section", options.section,
-            "Only rows of this section of the paper and its subsections, such as III or III.E")
+            "Only rows of this section and its subsections, such as III, III.E or coordination")
         .type_name("S");
     app.add_flag("--csv", options.csv, "Print CSV instead of a table");
     app.add("--markdown", options.markdown,
@@ -123,8 +123,8 @@ ExitCode run(const ScorecardCliOptions& options) {
         fmt::print("{}", csv);
     } else {
         fmt::print("{}{}\n", table_text(scorecard), remarks_text(scorecard));
-        fmt::print("{} inside, {} miss, {} open; {} input\n", scorecard.count(Verdict::inside), misses,
-                   scorecard.count(Verdict::open), scorecard.count(Verdict::input));
+        fmt::print("{} inside, {} miss, {} open; {} input, {} own\n", scorecard.count(Verdict::inside), misses,
+                   scorecard.count(Verdict::open), scorecard.count(Verdict::input), scorecard.count(Verdict::own));
         fmt::print("\nThe table is also in {}.\nNext: repeat the runs of these rows with tables and figures\n  {}\n",
                    (folder / "scorecard.csv").string(),
                    runnable(fmt::format("{}", fmt::join(commands_behind(scorecard.rows), "\n  "))));

@@ -89,9 +89,9 @@ std::vector<Headline> headlines(const Scorecard& scorecard) {
 }
 
 std::string results_text(const Scorecard& scorecard) {
-    const int inputs = scorecard.count(Verdict::input);
+    const int others = scorecard.count(Verdict::input) + scorecard.count(Verdict::own);
     return fmt::format("Of {} rows with results {} are inside their tolerance, {} outside, and {} open.",
-                       static_cast<int>(scorecard.rows.size()) - inputs, scorecard.count(Verdict::inside),
+                       static_cast<int>(scorecard.rows.size()) - others, scorecard.count(Verdict::inside),
                        scorecard.count(Verdict::miss), scorecard.count(Verdict::open));
 }
 

@@ -16,13 +16,14 @@ std::string verdict_text(Verdict verdict) {
     if (verdict == Verdict::inside) return "inside";
     if (verdict == Verdict::miss) return "**outside**";
     if (verdict == Verdict::input) return "input";
+    if (verdict == Verdict::own) return "own";
     return "open";
 }
 
 std::string counts_table(const Scorecard& scorecard) {
     std::string text = "| section | results | inside | outside | open | inputs |\n|---|--:|--:|--:|--:|--:|\n";
     const auto add_line = [&](const std::string& name, const std::string& section) {
-        std::array<int, 4> counts{};
+        std::array<int, 5> counts{};
         for (const ScoredRow& row : scorecard.rows) {
             if (section.empty() || main_section(row.target.section) == section) {
                 ++counts.at(static_cast<std::size_t>(row.verdict));
@@ -31,7 +32,7 @@ std::string counts_table(const Scorecard& scorecard) {
         text += fmt::format("| {} | {} | {} | {} | {} | {} |\n", name, counts[0] + counts[1] + counts[2], counts[0],
                             counts[1], counts[2], counts[3]);
     };
-    for (const std::string& section : main_sections(scorecard.rows)) add_line(section_title(section), section);
+    for (const std::string& section : paper_sections(scorecard.rows)) add_line(section_title(section), section);
     add_line("All", "");
     return text;
 }
@@ -59,7 +60,7 @@ std::string results_markdown(const Scorecard& scorecard, const std::string& comm
         "A program wrote this page: `{}`. Please do not edit it.\n\n"
         "Each row is a number or a claim of the paper (`data/paper/targets.csv`). The page compares it with our value. The "
         "tolerance is ours; *max* means that the value must not be exceeded. A row is *open* if it states no tolerance or was "
-        "not measured. `data/paper/explanations.csv` holds the causes of deviations. It also says how each row is measured; "
+        "not measured. An *own* row is a result of ours that the paper does not have (`data/paper/own_rows.csv`). `data/paper/explanations.csv` holds the causes of deviations. It also says how each row is measured; "
         "`stopline-scorecard --csv` prints that text beside the row.\n\n"
         "## The answer\n\n",
         command);

@@ -24,7 +24,7 @@ std::string section_title(const std::string& main) {
     for (const auto& [name, title] : kTitles) {
         if (main == name) return fmt::format("Section {}: {}", main, title);
     }
-    return "Section " + main;
+    return main == "coordination" ? "Beyond the paper: coordination between vehicles" : "Section " + main;
 }
 
 std::vector<std::string> main_sections(const std::vector<ScoredRow>& rows) {
@@ -35,6 +35,12 @@ std::vector<std::string> main_sections(const std::vector<ScoredRow>& rows) {
     }
     std::stable_partition(sections.begin(), sections.end(), [](const std::string& section) { return section == "I"; });
     return sections;
+}
+
+std::vector<std::string> paper_sections(const std::vector<ScoredRow>& rows) {
+    std::vector<ScoredRow> of_paper = rows;
+    std::erase_if(of_paper, [](const ScoredRow& row) { return row.target.kind == "own"; });
+    return main_sections(of_paper);
 }
 
 std::string quantity_text(const ScoredRow& row) {

@@ -39,6 +39,8 @@ const RowJudge* judge_of(const std::string& id) {
 // Returns the targets of a section, or all targets if `section` is empty. Throws InputError for a section without rows.
 std::vector<Target> targets_in_section(const std::string& section) {
     std::vector<Target> targets = load_targets();
+    const std::vector<Target> own = load_own_rows();
+    targets.insert(targets.end(), own.begin(), own.end());
     if (section.empty()) return targets;
     std::vector<std::string> known;
     for (const Target& target : targets) {
@@ -99,12 +101,12 @@ std::map<std::string, Measurements> measure_for(const std::vector<Target>& targe
 std::span<const Experiment> experiments() {
     static const std::vector<Experiment> kAll =
         concatenated<Experiment>({section3_experiments(), section4_experiments(), section5_experiments(),
-                                  section6_experiments(), section7_experiments()});
+                                  section6_experiments(), section7_experiments(), coordination_experiments()});
     return kAll;
 }
 std::span<const RowJudge> row_judges() {
-    static const std::vector<RowJudge> kAll =
-        concatenated<RowJudge>({section3_rows(), section4_rows(), section5_rows(), section6_rows(), section7_rows()});
+    static const std::vector<RowJudge> kAll = concatenated<RowJudge>(
+        {section3_rows(), section4_rows(), section5_rows(), section6_rows(), section7_rows(), coordination_rows()});
     return kAll;
 }
 
@@ -124,7 +126,7 @@ Scenario scenario_of(const Experiment& experiment, const ScorecardOptions& optio
 
 std::vector<std::string> commands_behind(const std::vector<ScoredRow>& rows) {
     constexpr const char* kBerlin = "stopline-sweep scenarios/sweeps/berlin.yaml";
-    constexpr std::array<std::array<const char*, 2>, 8> kCommands{{
+    constexpr std::array<std::array<const char*, 2>, 10> kCommands{{
         {"I", kBerlin},  // the introduction of the paper gives a gain for Berlin
         {"III", "stopline-run scenarios/single_light.yaml"},
         {"IV", "stopline-sweep scenarios/sweeps/intersection.yaml"},
@@ -133,6 +135,8 @@ std::vector<std::string> commands_behind(const std::vector<ScoredRow>& rows) {
         {"VI.C", "stopline-sweep scenarios/sweeps/grid.yaml"},
         {"VI.D", "stopline-sweep scenarios/sweeps/stability.yaml"},
         {"VII", kBerlin},
+        {"coordination", "stopline-sweep scenarios/sweeps/clearing_grid.yaml"},
+        {"coordination", "stopline-sweep scenarios/sweeps/coordination_four_lanes.yaml"},
     }};
     std::vector<std::string> commands;
     for (const auto& [section, command] : kCommands) {
@@ -164,7 +168,7 @@ Scorecard score(const std::string& section, const std::map<std::string, Measurem
     const std::map<std::string, Explanation> explanations =
         load_explanations(data_directory() / "paper" / "explanations.csv", scorecard.warnings);
     for (const Target& target : targets_in_section(section)) {
-        ScoredRow row{target, "", Verdict::open, "", ""};
+        ScoredRow row{target, "", judge(target, std::nullopt), "", ""};
         const RowJudge* const judge_row = judge_of(target.id);
         const auto found = judge_row == nullptr ? measured.end() : measured.find(judge_row->experiment);
         if (found != measured.end()) {

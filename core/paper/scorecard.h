@@ -1,9 +1,9 @@
-// The scorecard compares our numbers with the numbers of the paper, one row of data/paper/targets.csv at a time. A row
-// function reads our answer to a row from the measurements of one experiment. A row without a function has the verdict
-// 'open'.
+// The scorecard compares our numbers with the numbers of the paper, one row of data/paper/targets.csv at a time. It also
+// has the rows of data/paper/own_rows.csv: results of ours that the paper does not have. A row function reads our answer
+// to a row from the measurements of one experiment. A row without a function has the verdict 'open'.
 //
-// Each section of the paper has a file sections/scorecard_section<N>.cpp with its experiments and row functions.
-// scorecard.cpp concatenates the lists of all sections.
+// Each section of the paper has a file sections/scorecard_section<N>.cpp with its experiments and row functions. The own
+// rows have a file for each subject. scorecard.cpp concatenates the lists of all files.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +21,7 @@
 namespace stopline {
 
 struct ScorecardOptions {
-    std::string section;                // section of the paper, subsections included; empty: all sections
+    std::string section;                // section, subsections included; empty: all sections
     std::filesystem::path folder;       // folder of the stored measurements
     std::vector<std::string> settings;  // overrides "PATH=VALUE" for every scenario
     Reductions reductions;              // for a quick run; empty: full experiments
@@ -47,7 +47,7 @@ struct Experiment {
 
 // Row function: reads our answer to one row from the measurements of an experiment.
 struct RowJudge {
-    const char* id;          // id of the row in data/paper/targets.csv
+    const char* id;          // id of the row
     const char* experiment;  // name of the experiment
     // Returns std::nullopt if the experiment did not measure the value. The verdict of the row is then 'open'.
     std::optional<Answer> (*answer)(const Target& target, const Measurements& measurements);

@@ -42,6 +42,8 @@ const char* to_string(Verdict verdict) {
             return "miss";
         case Verdict::input:
             return "input";
+        case Verdict::own:
+            return "own";
         case Verdict::open:
             break;
     }
@@ -65,6 +67,7 @@ std::optional<TargetRange> parse_range(const std::string& value) {
 }
 
 Verdict judge(const Target& target, const std::optional<Answer>& answer) {
+    if (target.kind == "own") return Verdict::own;
     if (!answer) return Verdict::open;
     if (answer->holds) return *answer->holds ? Verdict::inside : Verdict::miss;
     if (target.kind == "claim") refuse(target, "a claim needs a yes-or-no answer");

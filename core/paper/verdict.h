@@ -1,5 +1,4 @@
-// Our answer to a row of data/paper/targets.csv, and the verdict on this answer: inside or outside the tolerance of the
-// row.
+// Our answer to a row of the scorecard, and the verdict on this answer: inside or outside the tolerance of the row.
 #pragma once
 
 #include <optional>
@@ -13,7 +12,8 @@ enum class Verdict {
     inside,  // our value is within the tolerance, or the claim holds
     miss,    // our value is outside the tolerance, or the claim does not hold
     open,    // we have no value, or the row states no tolerance
-    input    // the row is an input of the paper, and our input has the same value
+    input,   // the row is an input of the paper, and our input has the same value
+    own      // the row is a result of ours without a value in the paper, measured or not
 };
 const char* to_string(Verdict verdict);
 

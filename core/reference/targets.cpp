@@ -33,6 +33,7 @@ std::vector<Target> load_targets(const std::filesystem::path& file) {
 }
 
 std::vector<Target> load_targets() { return load_targets(data_directory() / "paper" / "targets.csv"); }
+std::vector<Target> load_own_rows() { return load_targets(data_directory() / "paper" / "own_rows.csv"); }
 
 bool in_section(const Target& target, const std::string& section) {
     if (!target.section.starts_with(section)) return false;

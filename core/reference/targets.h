@@ -1,4 +1,5 @@
-// Loads the file data/paper/targets.csv. Each row holds one input, target or claim of the paper.
+// Loads the files data/paper/targets.csv and data/paper/own_rows.csv. Each row of the first file holds one input, target
+// or claim of the paper. Each row of the second file names a result of ours that the paper does not have.
 #pragma once
 
 #include <filesystem>
@@ -8,12 +9,13 @@
 
 namespace stopline {
 
-// One row of the file.
+// One row of a file.
 struct Target {
     std::string id;        // identifier of the row, such as L01
     std::string section;   // section of the paper, such as III.E or IV Table 1
     std::string scenario;  // scenario or experiment that gives the value; '-': none
-    std::string kind;      // input: assumed value; target: numerical result; claim: statement in words
+    std::string kind;      // input: assumed value; target: numerical result; claim: statement in words;
+                           // own: result of ours without a value in the paper
     std::string quantity;
     std::string condition;  // population and settings; for an input: the objects that have the value
     std::string value;      // value in the paper: a number, a range 'low..high', or the text of a claim
@@ -27,6 +29,8 @@ struct Target {
 std::vector<Target> load_targets(const std::filesystem::path& file);
 // Loads the rows of data/paper/targets.csv.
 std::vector<Target> load_targets();
+// Loads the rows of data/paper/own_rows.csv.
+std::vector<Target> load_own_rows();
 
 // Returns true if the row belongs to the section of the paper or to a part of it. Section III includes III.B, and
 // section IV includes IV Table 1. Section I does not include III or IV.

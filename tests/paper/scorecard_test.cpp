@@ -17,7 +17,9 @@ namespace stopline {
 namespace {
 
 std::optional<Answer> answer_of(const std::string& id, const Measurements& measured) {
-    const std::vector<Target> targets = load_targets();
+    std::vector<Target> targets = load_targets();
+    const std::vector<Target> own = load_own_rows();
+    targets.insert(targets.end(), own.begin(), own.end());
     const auto target = std::find_if(targets.begin(), targets.end(), [&](const Target& t) { return t.id == id; });
     for (const RowJudge& judge : row_judges()) {
         if (judge.id == id) return judge.answer(*target, measured);
@@ -82,6 +84,45 @@ TEST(SectionThree, OrderDependsOnCountsThenOnTheNextVehicle) {
     EXPECT_EQ(answer_of("L15", counts(17.2, 13.5, 13.1, 11.0, 8.2, 7.9))->text,
               "CDG 17, SWITCH-1 13, SWITCH-2 13, MIX 11, CTG-Ref 8, CTG-HBS 7");
     EXPECT_FALSE(answer_of("L15", Measurements{}));
+}
+
+// Rows K01 to K15 read the values of the right runs. Every measured value is different.
+TEST(Coordination, RowsCompareTheRunsThatTheyName) {
+    Measurements measured;
+    measured.set("throughput_veh_h without 15 CTG-Ref", 1000);
+    measured.set("throughput_veh_h without 15 CDG", 1100);
+    measured.set("throughput_veh_h with 15 CTG-Ref", 500);
+    measured.set("throughput_veh_h with 15 CDG", 800);
+    EXPECT_NEAR(answer_of("K01", measured)->low, 10.0, 1e-9);
+    EXPECT_NEAR(answer_of("K02", measured)->low, 60.0, 1e-9);
+    EXPECT_FALSE(answer_of("K04", measured)) << "the runs with 20 s of green are missing";
+    for (const auto& [runs, blocking_h] : {std::pair{"without 15 CDG", 30.0}, std::pair{"with 15 CDG", 1.0}}) {
+        measured.set(std::string("delay_junction_blocking_h ") + runs, blocking_h);
+        measured.set(std::string("delay_turn_blocking_h ") + runs, 2.0 * blocking_h);
+        measured.set(std::string("delay_gridlock_h ") + runs, blocking_h);
+    }
+    EXPECT_NEAR(answer_of("K08", measured)->low, 100.0 * 4.0 / 120.0, 1e-9);
+    EXPECT_FALSE(answer_of("K06", measured)) << "the runs with 10 s and 20 s are missing";
+    for (const char* const runs : {"with 10 CDG", "with 15 CDG", "with 20 CDG"}) {
+        measured.set(std::string("gridlocks ") + runs, 2.0);
+    }
+    EXPECT_EQ(answer_of("K06", measured)->low, 6.0);
+    measured.set("delay_wrong_lane_h without CDG", 80.0);
+    measured.set("delay_wrong_lane_h with CDG", 20.0);
+    EXPECT_NEAR(answer_of("K15", measured)->low, 25.0, 1e-9);
+}
+
+TEST(Coordination, RowsAreNoResultsOfThePaper) {
+    const Scorecard scorecard = score("coordination", {});
+    EXPECT_EQ(scorecard.rows.size(), load_own_rows().size());
+    EXPECT_EQ(scorecard.count(Verdict::own), static_cast<int>(scorecard.rows.size()));
+    EXPECT_EQ(scorecard.count(Verdict::open), 0);
+    for (const ScoredRow& row : scorecard.rows) {
+        EXPECT_FALSE(row.measured_as.empty()) << row.target.id << " is missing in explanations.csv";
+        EXPECT_TRUE(std::any_of(row_judges().begin(), row_judges().end(), [&](const RowJudge& judge) {
+            return judge.id == row.target.id;
+        })) << row.target.id;
+    }
 }
 
 TEST(Scorecard, JudgesInputsWithoutMeasuring) {
@@ -160,7 +201,8 @@ TEST(Scorecard, NamesTheCommandsOfASection) {
     EXPECT_EQ(commands("VI.C"), Commands{"stopline-sweep scenarios/sweeps/grid.yaml"});
     EXPECT_EQ(commands("VII"), Commands{"stopline-sweep scenarios/sweeps/berlin.yaml"});
     EXPECT_EQ(commands("I"), commands("VII"));
-    EXPECT_EQ(commands("").size(), 7u);
+    EXPECT_EQ(commands("coordination").size(), 2U);
+    EXPECT_EQ(commands("").size(), 9U);
     for (const std::string& command : commands("")) {
         const std::size_t file = command.find("scenarios/");
         if (file == std::string::npos) continue;

@@ -69,9 +69,21 @@ TEST(Targets, ShippedRowsCanBeJudged) {
     }
 }
 
+TEST(Targets, OwnRowsHaveNoValueOfThePaper) {
+    std::set<std::string> ids;
+    for (const Target& target : load_targets()) ids.insert(target.id);
+    for (const Target& row : load_own_rows()) {
+        EXPECT_EQ(row.kind, "own") << row.id;
+        EXPECT_EQ(row.value + row.tolerance, "") << row.id;
+        EXPECT_EQ(judge(row, number_answer(1.0)), Verdict::own) << row.id;
+        EXPECT_TRUE(ids.insert(row.id).second) << row.id << " is also a row of the paper";
+    }
+}
+
 TEST(Targets, HaveAtMostOneJudgeWithAKnownExperiment) {
     std::set<std::string> ids;
     for (const Target& target : load_targets()) ids.insert(target.id);
+    for (const Target& target : load_own_rows()) ids.insert(target.id);
     std::set<std::string> experiment_names;
     for (const Experiment& experiment : experiments()) EXPECT_TRUE(experiment_names.insert(experiment.name).second);
     std::set<std::string> judged;
@@ -93,9 +105,10 @@ TEST(Targets, RefuseDuplicateIdsAndMissingColumns) {
     EXPECT_TRUE(contains(input_error_of([&] { load_targets(lacking); }), "no column 'scenario'"));
 }
 
-TEST(Explanations, BelongToRowsOfThePaper) {
+TEST(Explanations, BelongToRowsOfTheScorecard) {
     std::set<std::string> ids;
     for (const Target& target : load_targets()) ids.insert(target.id);
+    for (const Target& target : load_own_rows()) ids.insert(target.id);
     std::vector<std::string> warnings;
     for (const auto& [id, explanation] : load_explanations(shipped("data/paper/explanations.csv"), warnings)) {
         EXPECT_TRUE(ids.contains(id)) << id;

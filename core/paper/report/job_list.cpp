@@ -10,6 +10,7 @@ bool in_iv(const std::string& section) { return section == "IV"; }
 bool in_v(const std::string& section) { return section == "V"; }
 bool in_vi(const std::string& section) { return section == "VI"; }
 bool in_vii(const std::string& section) { return section == "VII"; }
+bool in_coordination(const std::string& section) { return section == "coordination"; }
 // Fig. 23 compares grid and arterial with the single intersection, so Section VI also needs the intersection job.
 bool in_iv_or_vi(const std::string& section) { return in_iv(section) || in_vi(section); }
 
@@ -34,7 +35,11 @@ const std::vector<Job>& all_jobs() {
         {"grid_stability", "VI", "stability of the grid", 600, 54, in_vi, run_stability_job},
         {"grid_unstable", "VI", "an unstable run of the grid", 38, 4, in_vi, run_unstable_job},
         {"berlin_sweep", "VII", "Berlin, all permutations", 308, 52, in_vii, run_berlin_sweep_job},
-        {"berlin", "VII", "Berlin in detail", 26, 26, in_vii, run_berlin_job}};
+        {"berlin", "VII", "Berlin in detail", 26, 26, in_vii, run_berlin_job},
+        {"clearing_grid", "coordination", "grid with cooperative clearing", 120, 8, in_coordination,
+         run_clearing_grid_job},
+        {"coordination_four_lanes", "coordination", "Berlin with coordination", 150, 20, in_coordination,
+         run_coordination_berlin_job}};
     return kJobs;
 }
 

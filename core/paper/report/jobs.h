@@ -30,6 +30,10 @@ JobOutput run_unstable_job(const JobContext& context);    // Fig. 22
 JobOutput run_berlin_sweep_job(const JobContext& context);  // no figure; rows of the scorecard
 JobOutput run_berlin_job(const JobContext& context);        // Fig. 24 to 26
 
+// Beyond the paper: coordination between vehicles. No figures; rows of the scorecard.
+JobOutput run_clearing_grid_job(const JobContext& context);
+JobOutput run_coordination_berlin_job(const JobContext& context);
+
 // Runs the intersection sweep in full dynamics, or loads its stored runs. Sections IV and V share these runs.
 SweepRuns intersection_runs(const ScorecardOptions& options, ProgressRange range);
 

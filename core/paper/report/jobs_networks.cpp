@@ -1,4 +1,4 @@
-// Jobs of Sections VI and VII: arterial, grid, Berlin.
+// Jobs of networks: arterial, grid, Berlin.
 #include <algorithm>
 #include <functional>
 
@@ -105,6 +105,13 @@ JobOutput run_arterial_job(const JobContext& context) { return sweep_job(context
 JobOutput run_grid_job(const JobContext& context) { return sweep_job(context, "grid", "grid"); }
 JobOutput run_stability_job(const JobContext& context) { return sweep_job(context, "grid_stability", "stability"); }
 JobOutput run_berlin_sweep_job(const JobContext& context) { return sweep_job(context, "berlin", "berlin"); }
+
+JobOutput run_clearing_grid_job(const JobContext& context) {
+    return sweep_job(context, "clearing_grid", "clearing_grid");
+}
+JobOutput run_coordination_berlin_job(const JobContext& context) {
+    return sweep_job(context, "coordination_four_lanes", "coordination_four_lanes");
+}
 
 JobOutput run_unstable_job(const JobContext& context) {
     JobWriter writer(context);

@@ -81,7 +81,7 @@ std::string answer_html(const ReportContent& content) {
 
 std::string facts_html(const ReportContent& content) {
     std::string html = "<section id=\"facts\">\n<h2>This report</h2>\n<dl class=\"facts\">\n";
-    html += fact("Sections", content.section == "all" ? "all (III to VII)" : content.section);
+    html += fact("Sections", content.section == "all" ? "all (III to VII, coordination)" : content.section);
     html += fact("Extent", content.reduced() ? "reduced (--quick)" : "full");
     html += fact("Version", content.version);
     html += fact("Program", content.program);
@@ -109,12 +109,14 @@ HtmlTable::Cell verdict_cell(Verdict verdict) {
     if (verdict == Verdict::inside) return {"✓ inside", "inside"};
     if (verdict == Verdict::miss) return {"✗ outside", "miss"};
     if (verdict == Verdict::input) return {"input", "open"};
+    if (verdict == Verdict::own) return {"own", "open"};
     return {"– open", "open"};
 }
 
 std::string score_table(const ReportContent& content, const std::string& section) {
     HtmlTable table(
-        "Values of the paper and tolerances: data/paper/targets.csv. Explanations: data/paper/explanations.csv.",
+        "Values of the paper and tolerances: data/paper/targets.csv. Own results: data/paper/own_rows.csv. Explanations: "
+        "data/paper/explanations.csv.",
         {"Row", "Quantity", "Conditions", "Paper", "Ours", "Unit", "Difference", "Tolerance", "Verdict",
          "How it is measured; cause of a deviation"});
     for (const ScoredRow& row : content.scorecard.rows) {
@@ -140,7 +142,7 @@ std::string rows_met_html(const ReportContent& content) {
         "runs did not measure it.",
         {"Section", "Results", "Inside", "Outside", "Open", "Inputs"});
     const auto count_row = [&](const std::string& name, const std::string& section) {
-        std::array<int, 4> counts{};
+        std::array<int, 5> counts{};
         for (const ScoredRow& row : content.scorecard.rows) {
             if (section.empty() || main_section(row.target.section) == section) {
                 ++counts.at(static_cast<std::size_t>(row.verdict));
@@ -153,7 +155,8 @@ std::string rows_met_html(const ReportContent& content) {
                      {fmt::format("{}", counts[2]), "number"},
                      {fmt::format("{}", counts[3]), "number"}});
     };
-    for (const std::string& section : main_sections(content.scorecard.rows)) count_row(section_title(section), section);
+    for (const std::string& section : paper_sections(content.scorecard.rows))
+        count_row(section_title(section), section);
     count_row("All", "");
     return "<section id=\"rows-met\">\n<h2>Rows met</h2>\n" + summary.html() +
            fmt::format(

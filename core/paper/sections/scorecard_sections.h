@@ -1,4 +1,4 @@
-// Experiments and row functions of each section of the paper. scorecard.h explains both terms.
+// Experiments and row functions of each section of the paper, and of the own rows. scorecard.h explains these terms.
 #pragma once
 
 #include <span>
@@ -21,5 +21,8 @@ std::span<const RowJudge> section6_rows();
 
 std::span<const Experiment> section7_experiments();
 std::span<const RowJudge> section7_rows();
+
+std::span<const Experiment> coordination_experiments();
+std::span<const RowJudge> coordination_rows();
 
 }  // namespace stopline

@@ -103,14 +103,16 @@ std::vector<TableDoc> other_program_tables() {
           {"ours_veh", "veh", "window", "passages in the mesoscale mode, mean over the seeds"},
           {"sumo_veh", "veh", "window", "passages in SUMO, mean over the seeds"}}},
         {"scorecard/scorecard.csv",
-         "One row for each number or claim of the paper.",
-         {{"id", "", "", "row of `data/paper/targets.csv`"},
-          {"section", "", "", "section of the paper"},
-          {"paper", "", "", "value or claim of the paper"},
+         "One row for each number or claim of the paper, and for each result of ours that the paper does not have.",
+         {{"id", "", "", "row of `data/paper/targets.csv` or `data/paper/own_rows.csv`"},
+          {"section", "", "", "section of the paper; `coordination`: not in the paper"},
+          {"paper", "", "", "value or claim of the paper; empty: not in the paper"},
           {"ours", "", "", "value or result of this project; empty: no result"},
           {"unit", "", "", "unit of both values"},
           {"tolerance", "", "", "allowed difference"},
-          {"verdict", "", "", "`inside` the tolerance, `miss`, or `open`: no result or no tolerance"},
+          {"verdict", "", "",
+           "`inside` the tolerance, `miss`, `open` (no result or no tolerance), `input` of the paper, or `own` (not in the "
+           "paper)"},
           {"explanation", "", "", "how the value is measured, and why it misses the paper's value"}}},
     };
 }
