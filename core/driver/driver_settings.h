@@ -142,6 +142,17 @@ struct HumanSettings {
     bool operator==(const HumanSettings&) const = default;
 };
 
+// Green light optimal speed advisory (GLOSA): the signal tells the vehicle when it will be green (SPaT messages), and the
+// vehicle slows down early so that it arrives at green without a stop (sim/speed_advice/speed_advice.cpp).
+struct SpeedAdviceSettings {
+    std::string mode = "off";         // off | glosa
+    double range_m = 300.0;           // distance to the stop line within which the vehicle gets messages
+    double min_speed_mps = 20 / 3.6;  // lowest advised speed
+    double deceleration_mps2 = 1.0;   // strongest braking towards the advised speed
+
+    bool operator==(const SpeedAdviceSettings&) const = default;
+};
+
 struct DriverSettings {
     CaccSettings cacc;
     FreeDriveSettings free_drive;
@@ -151,6 +162,7 @@ struct DriverSettings {
     HumanSettings human;
     V2vSettings v2v;
     PlatoonSettings platoon;
+    SpeedAdviceSettings speed_advice;
     std::string name = {};  // name of the driver; default: the name of the file in data/drivers
 
     bool operator==(const DriverSettings&) const = default;

@@ -134,6 +134,7 @@ DriverPlan driver_plan(const DriverSettings& settings, const PowertrainTables& v
     extend_by_power(settings.free_drive, available_mps2, driver.tables);
     driver.give_way = settings.give_way;
     driver.lane_change = settings.lane_change;
+    driver.speed_advice = settings.speed_advice;
     driver.hesitation_s = is_human ? std::max(settings.free_drive.hesitation_s, settings.human.start_reaction_s)
                                    : settings.free_drive.hesitation_s;
     driver.hesitation_ticks = to_ticks(driver.hesitation_s, step_s);
@@ -160,6 +161,8 @@ void add_vehicles_and_drivers(const std::vector<FleetClass>& classes, Model& mod
         return std::any_of(model.graph.lanes.begin(), model.graph.lanes.end(),
                            [&](const Lane& lane) { return vehicle.maximum_speed_mps < lane.limit_mps; });
     };
+    model.has_speed_advice = std::any_of(model.drivers.begin(), model.drivers.end(),
+                                         [](const DriverPlan& driver) { return driver.speed_advice.mode == "glosa"; });
     model.has_speed_limiters = std::any_of(model.vehicles.begin(), model.vehicles.end(), limits_speed);
 }
 

@@ -117,6 +117,13 @@ DriverSettings v2v_driver_of(const Scenario& scenario, const PopulationSettings&
     return driver;
 }
 
+bool any_driver(const Scenario& scenario, bool (*has)(const DriverSettings& driver)) {
+    const std::vector<const PopulationSettings::Component*> components = all_components(scenario);
+    return has(scenario.driver) || std::any_of(components.begin(), components.end(), [&](const auto* component) {
+               return has(driver_of(scenario, *component));
+           });
+}
+
 std::vector<const PopulationSettings::Component*> all_components(const Scenario& scenario) {
     std::vector<const PopulationSettings::Component*> components;
     for (const PopulationSettings& population : scenario.populations) {

@@ -14,6 +14,9 @@ namespace stopline {
 const PowertrainSettings& vehicle_of(const Scenario& scenario, const PopulationSettings::Component& component);
 const DriverSettings& driver_of(const Scenario& scenario, const PopulationSettings::Component& component);
 
+// Returns true if the driver of the scenario or of any component has a property.
+bool any_driver(const Scenario& scenario, bool (*has)(const DriverSettings& driver));
+
 // Returns the driver of the first component of a population, with the V2V and platoon settings of the first component
 // that sets them. These settings apply to all vehicles of the population.
 DriverSettings v2v_driver_of(const Scenario& scenario, const PopulationSettings& population);

@@ -60,7 +60,34 @@ public:
         return begin_green(static_cast<int>(memory_[kNextPhase]));
     }
 
+    // Returns the green that is certain to come or to last. A later green depends on the traffic.
+    GreenWindow next_green(int group, std::int64_t after_tick) const {
+        const auto interval = static_cast<Interval>(memory_[kInterval]);
+        const std::int64_t now = view_.tick();
+        GreenWindow green;
+        if (view_.light(group) == Light::green) {
+            green.from_tick = view_.green_start_tick(group);
+            green.until_tick = now + 1;
+            if (interval == Interval::green) {
+                green.until_tick = std::max(green.until_tick, memory_[kStartTick] + shortest_green(present()));
+            }
+        } else if (interval == Interval::yellow || interval == Interval::all_red) {
+            const int next = static_cast<int>(memory_[kNextPhase]);
+            if (!phase(next).has_green(group)) return {};
+            const SignalPhase& own = phase(present());
+            const std::int64_t rest =
+                interval == Interval::yellow ? own.yellow_ticks + own.all_red_ticks : own.all_red_ticks;
+            green.from_tick = memory_[kStartTick] + rest;
+            green.until_tick = green.from_tick + shortest_green(next);
+        }
+        return green.is_known() && green.until_tick > after_tick ? green : GreenWindow{};
+    }
+
 private:
+    std::int64_t shortest_green(int number) const {
+        const SignalPhase& own = phase(number);
+        return own.recall == Recall::maximum ? std::max(own.max_green_ticks, own.min_green_ticks) : own.min_green_ticks;
+    }
     const SignalPhase& phase(int number) const { return plan_.phases[static_cast<std::size_t>(number)]; }
     int present() const { return static_cast<int>(memory_[kPhase]); }
     std::int64_t& green_end(int group) { return memory_[kGreenEnds + static_cast<std::size_t>(group)]; }
@@ -265,6 +292,11 @@ extern const SignalController kActuatedController{
     .nominal_cycle = actuated_cycle,
     .init = start_actuated,
     .step = [](SignalView& view) { return ActuatedSignal(view).step(); },
+    .next_green =
+        [](const SignalView& view, int group, std::int64_t after_tick) {
+            SignalView own = view;  // ActuatedSignal takes a view that it may change
+            return ActuatedSignal(own).next_green(group, after_tick);
+        },
     .memory_size = [](const SignalPlan& plan) { return kGreenEnds + plan.groups.size(); },
     .detectors_m = actuated_detectors_m,
     .problems = actuated_problems,

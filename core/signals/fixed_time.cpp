@@ -49,6 +49,24 @@ std::int64_t step(SignalView& view) {
     return next_change_tick(view);
 }
 
+// Returns the first green that ends after the given tick. The programme is known as far as it reaches.
+GreenWindow next_green(const SignalView& view, int group, std::int64_t after_tick) {
+    constexpr int kMostChanges = 100;  // a group without green has no window
+    const GroupProgramme& programme = view.plan().programmes[static_cast<std::size_t>(group)];
+    std::int64_t tick = after_tick;
+    for (int k = 0; k < kMostChanges && programme.light(tick) != Light::green; ++k) {
+        tick = programme.next_change_tick(tick);
+        if (tick == GreenWindow::kUnknown) return {};
+    }
+    if (programme.light(tick) != Light::green) return {};
+    GreenWindow green{programme.light_start_tick(tick), tick};
+    for (int k = 0; k < kMostChanges && programme.light(green.until_tick) == Light::green; ++k) {
+        green.until_tick = programme.next_change_tick(green.until_tick);
+        if (green.until_tick == GreenWindow::kUnknown) break;
+    }
+    return green;
+}
+
 }  // namespace
 
 extern const SignalController kFixedTimeController{
@@ -58,6 +76,7 @@ extern const SignalController kFixedTimeController{
     .nominal_cycle = nominal_cycle_of,
     .init = init,
     .step = step,
+    .next_green = next_green,
     .follows_programme = true,
     .runs_phases = true};
 

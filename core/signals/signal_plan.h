@@ -45,18 +45,20 @@ public:
     // `is_complete()` is false if a lower group has no signal.
     int groups() const { return static_cast<int>(places_.size()); }
     bool is_complete() const;
-    const SignalPlan& plan_of(int group) const { return plans_[places_[static_cast<std::size_t>(group)].signal]; }
+    // The signal to which a signal group belongs, and the number of the group within this signal.
+    struct Place {
+        std::size_t signal = 0;
+        std::size_t index = 0;
+        bool is_known = false;
+    };
+    const Place& place_of(int group) const { return places_[static_cast<std::size_t>(group)]; }
+    const SignalPlan& plan_of(int group) const { return plans_[place_of(group).signal]; }
     // Returns the fixed-time programme of the settings for a signal group.
     const GroupProgramme& programme(int group) const {
         return plan_of(group).programmes[places_[static_cast<std::size_t>(group)].index];
     }
 
 private:
-    struct Place {
-        std::size_t signal = 0;
-        std::size_t index = 0;  // number of the group within its signal
-        bool is_known = false;
-    };
     std::vector<SignalPlan> plans_;
     std::vector<Place> places_;  // [signal group of the lane graph]
 };

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -36,6 +37,14 @@ struct SignalState {
     std::vector<std::vector<std::int64_t>> memory;  // [signal] numbers that the controller keeps
     // [signal] Detectors on the lanes of the signal. Empty for controllers that do not read them.
     std::vector<std::vector<SignalDetector>> detectors;
+};
+
+// A green of a signal group: the ticks from `from_tick` to before `until_tick`.
+struct GreenWindow {
+    static constexpr std::int64_t kUnknown = std::numeric_limits<std::int64_t>::max();
+    std::int64_t from_tick = kUnknown;
+    std::int64_t until_tick = kUnknown;
+    bool is_known() const { return from_tick != kUnknown; }
 };
 
 // SignalView is what a controller may read and write: the lights, the memory and the detectors of one intersection at

@@ -39,6 +39,7 @@ ALLOWED = {
     "sim/mesoscale": SIM_BELOW + ["sim/state", "sim/perception", "sim/performance"],
     "sim/clearing": SIM_BELOW + ["sim/state", "sim/performance"],
     "sim/junction": SIM_BELOW + ["sim/state", "sim/perception", "sim/performance", "sim/clearing"],
+    "sim/speed_advice": SIM_BELOW + ["sim/state", "sim/perception", "sim/clearing", "sim/junction"],
     "sim/lane_change": SIM_BELOW + ["sim/state", "sim/perception"],
     "sim/insertion": SIM_BELOW + ["sim/state", "sim/perception", "sim/lane_change"],
     "sim/congestion": SIM_BELOW + ["sim/state", "sim/perception", "sim/lane_change", "sim/insertion"],

@@ -9,16 +9,8 @@ namespace {
 
 // Returns true if some drivers ask for gaps by V2V.
 bool opens_gaps_cooperatively(const Scenario& scenario) {
-    const auto cooperates = [](const DriverSettings& driver) {
-        return driver.lane_change.gap_opening == "cooperative";
-    };
-    if (cooperates(scenario.driver)) return true;
-    for (const PopulationSettings& population : scenario.populations) {
-        for (const PopulationSettings::Component& component : population.components) {
-            if (cooperates(driver_of(scenario, component))) return true;
-        }
-    }
-    return false;
+    return any_driver(scenario,
+                      [](const DriverSettings& driver) { return driver.lane_change.gap_opening == "cooperative"; });
 }
 
 }  // namespace

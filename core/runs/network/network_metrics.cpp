@@ -6,6 +6,7 @@
 #include "base/nan.h"
 #include "base/units.h"
 #include "runs/network/gap_metrics.h"
+#include "runs/network/speed_advice_metrics.h"
 #include "scenario/kinds/network_kind.h"
 
 namespace stopline {
@@ -336,6 +337,17 @@ MetricList<MeasuredNetwork> stop_metrics() {
          .meaning = "longest single stop of any vehicle",
          .value = [](const MeasuredNetwork& run) { return run.result.delays.longest_stop_s; },
          .sweep_decimals = 1},
+        {.column = "stops_per_vehicle",
+         .extent = "run",
+         .meaning = "number of stops, counted once a second in the whole network, divided by `entered`",
+         .value =
+             [](const MeasuredNetwork& run) {
+                 return run.result.entered == 0
+                            ? kNan
+                            : static_cast<double>(run.result.delays.stops) / static_cast<double>(run.result.entered);
+             },
+         .summary_decimals = 2,
+         .sweep_decimals = 2},
         junction_time_metric<MeasuredNetwork>(1),
     };
 }
@@ -393,12 +405,12 @@ MetricList<MeasuredNetwork> backlog_metrics() {
 }  // namespace
 
 const MetricList<MeasuredNetwork>& network_metrics() {
-    static const MetricList<MeasuredNetwork> kMetrics =
-        joined_lists<MeasuredNetwork>({area_metrics(), window_metrics(), stability_metrics(), gridlock_metrics(),
-                                       delay_metrics(), gap_metrics(), street_metrics(), stop_metrics(), trip_metrics(),
-                                       count_metrics<MeasuredNetwork>({"overlaps", "conflicts", "red_entries",
-                                                                       "forced_red_entries", "lost_vehicles"}),
-                                       backlog_metrics()});
+    static const MetricList<MeasuredNetwork> kMetrics = joined_lists<MeasuredNetwork>(
+        {area_metrics(), window_metrics(), stability_metrics(), gridlock_metrics(), delay_metrics(), gap_metrics(),
+         speed_advice_metrics(), street_metrics(), stop_metrics(), trip_metrics(),
+         count_metrics<MeasuredNetwork>(
+             {"overlaps", "conflicts", "red_entries", "forced_red_entries", "lost_vehicles"}),
+         backlog_metrics()});
     return kMetrics;
 }
 

@@ -317,6 +317,7 @@ NetworkResult run_network(const Scenario& scenario, std::size_t population,
     measure(scenario, model, state, sampler, result);
     result.delays = state.congestion.delays;
     result.delays.refused_stop_s = simulation.model().time_s(result.delays.refusal_ticks);
+    result.delays.advised_s = simulation.model().time_s(result.delays.advised_ticks);
     result.gap_counts = state.records.gap_counts;
     result.violations = state.records.violations;
     result.v2v = v2v_result(state.records, model.v2v_plan);

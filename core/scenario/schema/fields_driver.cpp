@@ -292,6 +292,7 @@ const Table& driver_table() {
             section<&S::human>("human", human_table, "human drivers: policies with the law human"),
             section<&S::v2v>("v2v", v2v_table, "V2V messages between automated vehicles"),
             section<&S::platoon>("platoon", platoon_table, "length of platoons"),
+            section<&S::speed_advice>("speed_advice", speed_advice_table, "speed advice of signals (GLOSA)"),
         },
         check_driver);
     return table;

@@ -281,7 +281,7 @@ void attribute_delays(const Model& model, const State& state, CongestionState& c
 void watch_delays(const Model& model, State& state) {
     DelayWatch& watch = state.congestion.watch;
     prepare_delay_watch(model, state, watch);
-    for (Partition& part : state.partitions) find_stopped_vehicles(state, part);
+    for (Partition& part : state.partitions) find_stopped_vehicles(model, state, part);
     for (const Partition& part : state.partitions) find_wait_reasons(model, state, watch, part);
     attribute_delays(model, state, state.congestion);
 }

@@ -125,7 +125,7 @@ private:
 
 }  // namespace
 
-void find_stopped_vehicles(State& state, Partition& part) {
+void find_stopped_vehicles(const Model& model, State& state, Partition& part) {
     DelayWatch& w = state.congestion.watch;
     const auto now = static_cast<int>(state.tick);
     const double* const speed_mps = state.vehicles.speed_mps.data();
@@ -142,6 +142,7 @@ void find_stopped_vehicles(State& state, Partition& part) {
                 stopped_since[slot] = now;
                 continue;
             }
+            part.stops += stopped_since[slot] + model.rules.watch_ticks == state.tick ? 1 : 0;
             w.traversal[at(slot)] = 0;
             w.cause[at(slot)] = DelayCause::none;
             part.earliest_stop_tick = std::min(part.earliest_stop_tick, stopped_since[slot]);

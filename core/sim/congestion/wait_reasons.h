@@ -7,8 +7,9 @@
 namespace stopline {
 
 // Lists the stopped vehicles of a partition (Partition::stopped_slots). Sets VehicleArrays::stopped_since of all moving
-// vehicles of the partition to the present tick.
-void find_stopped_vehicles(State& state, Partition& part);
+// vehicles of the partition to the present tick. Counts the vehicles that have stopped since the previous call
+// (Partition::stops).
+void find_stopped_vehicles(const Model& model, State& state, Partition& part);
 
 // Finds the blocker of each stopped vehicle of a partition, and the cause that stops the vehicle itself
 // (DelayWatch::direct_cause). find_stopped_vehicles() must have run for all partitions before.

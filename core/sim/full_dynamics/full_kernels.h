@@ -36,7 +36,7 @@ struct FullKernels {
 
     const char* name;
     // Fills the group from the arrays of all vehicles: takes the radar measurements, and reads the delayed data about
-    // the leaders. FullGroup::demand becomes the lowest of the accelerations that stop lines, yielding, gap alignments
+    // the leaders. FullGroup::demand becomes the lowest of the accelerations that stop lines, yielding, speed targets
     // and hidden leaders demand of the vehicle (LaneGroup::demands).
     void (*gather)(const FullStreams&, const DelayRows& radar, const DelayRows& v2v, const LaneGroup&, double dt,
                    const FullGroup&);

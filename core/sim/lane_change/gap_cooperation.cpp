@@ -9,6 +9,7 @@
 #include "driver/following_model.h"
 #include "sim/lane_change/preferred_lane.h"
 #include "sim/perception/lane_gaps.h"
+#include "sim/state/lane_blocks.h"
 #include "sim/state/queries/desired_gap.h"
 #include "sim/state/queries/received_message.h"
 #include "sim/state/queries/stopping_distance.h"
@@ -227,14 +228,14 @@ private:
         // The requester approaches its place gradually. If it fell behind its place, it might be unable to come
         // forward.
         const double back_mps = std::clamp(-place.spare_m / kApproach_s, -kFallingBack_mps, kFallingBack_mps);
-        add_alignment(state_, part_, lane_, {me.slot, std::max(expected_lead_mps(place) - back_mps, 0.0)});
+        add_speed_target(state_, part_, lane_, {me.slot, std::max(expected_lead_mps(place) - back_mps, 0.0)});
     }
 
     // Returns the speed of the leader at the time at which an alignment takes effect. In full dynamics a vehicle
     // reaches its target speed gradually.
     double expected_lead_mps(const Place& place) const {
         if (model_.meso || place.leader < 0) return place.lead_mps;
-        return place.lead_mps + v_.acceleration_mps2[at(place.leader)] * GapAlignment::kTimeToTarget_s;
+        return place.lead_mps + v_.acceleration_mps2[at(place.leader)] * SpeedTarget::kTimeToTarget_s;
     }
 
     // Returns true if another vehicle has changed to the place ahead of the opener. Stores the new leader if the old
@@ -255,7 +256,7 @@ private:
         if (place.missing_m > 0.0)
             target_mps = lead_mps - std::min(kOpening_mps, std::sqrt(2.0 * kOpeningRamp_mps2 * place.missing_m));
         if (model_.time_s(state_.tick - r.begin_tick) < r.hold_s) target_mps = 0.0;
-        add_alignment(state_, part_, r.target_lane, {place.opener, std::max(target_mps, 0.0), kOpeningRamp_mps2});
+        add_speed_target(state_, part_, r.target_lane, {place.opener, std::max(target_mps, 0.0), kOpeningRamp_mps2});
     }
 
     // Finds the cheapest opener.
@@ -313,7 +314,7 @@ private:
         // is unknown when the two queues start. If both discharge and the opener is still stopped, it agrees and delays
         // its start.
         if (me.speed_mps <= kCrawlingSpeed_mps || lead_mps <= kCrawlingSpeed_mps) return -1.0;
-        const double forward_m = 0.5 * square(std::max(faster_mps, 0.0)) / GapAlignment::kDeceleration_mps2;
+        const double forward_m = 0.5 * square(std::max(faster_mps, 0.0)) / SpeedTarget::kDeceleration_mps2;
         const Place place = place_ahead_of(me, r.target_lane, slot, there_m_ + forward_m);
         const double missing_m = std::max(place.missing_m, 0.0) + place.extra_m;
         if (starts) {
@@ -389,13 +390,6 @@ void cooperate_on_gaps(const Model& model, State& state, Partition& part) {
         if (state.blocks[at(lane)].count == 0 && state.gap_cooperation.requests[at(lane)].empty()) continue;
         LaneRequests(model, state, part, lane).run();
     }
-}
-
-void add_alignment(State& state, Partition& part, int lane, const GapAlignment& alignment) {
-    std::vector<GapAlignment>& alignments = state.gap_alignments[at(lane)];
-    if (alignments.empty()) part.lanes_with_alignments.push_back(lane);
-    alignments.push_back(alignment);
-    state.queues.standing[at(lane)].last_external_tick = state.tick;
 }
 
 bool has_gap_agreement(const State& state, int lane, int slot) {

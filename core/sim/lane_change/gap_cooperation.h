@@ -14,9 +14,6 @@ void init_gap_cooperation(const Model& model, State& state);
 // Adds and removes the requests of a partition, finds openers, and adapts the speeds of requesters and openers.
 void cooperate_on_gaps(const Model& model, State& state, Partition& part);
 
-// Adds the alignment of a vehicle on `lane`.
-void add_alignment(State& state, Partition& part, int lane, const GapAlignment& alignment);
-
 // Returns true if the vehicle in `slot` of `lane` is a requester that knows of its agreement.
 bool has_gap_agreement(const State& state, int lane, int slot);
 

@@ -11,6 +11,7 @@
 #include "sim/lane_change/gap_cooperation.h"
 #include "sim/lane_change/lane_change.h"
 #include "sim/perception/lane_gaps.h"
+#include "sim/state/lane_blocks.h"
 #include "sim/state/queries/desired_gap.h"
 #include "sim/state/queries/stopping_distance.h"
 
@@ -94,7 +95,7 @@ private:
     }
 
     // Returns the vehicle on lane `other` that opens a gap for `me`. It is the first vehicle behind `me` that can brake
-    // to the speed of `me` with GapAlignment::kDeceleration_mps2 and still has the gap that `me` requires at rest with
+    // to the speed of `me` with SpeedTarget::kDeceleration_mps2 and still has the gap that `me` requires at rest with
     // the highest urgency. If both vehicles are almost at rest, the gap cannot grow any more. So it must then suffice
     // for the present urgency of `me`, and the vehicle must not have let another vehicle in before. The slot is -1 if
     // there is no such vehicle or if gap opening is off.
@@ -107,7 +108,7 @@ private:
         for (int slot = follower.slot; slot < end; ++slot) {
             const double gap_m = follower.gap_m + v_.position_m[at(follower.slot)] - v_.position_m[at(slot)];
             const double braking_m =
-                braking_distance_m(v_.speed_mps[at(slot)], me.speed_mps, GapAlignment::kDeceleration_mps2);
+                braking_distance_m(v_.speed_mps[at(slot)], me.speed_mps, SpeedTarget::kDeceleration_mps2);
             const int policy = v_.policy[at(slot)];
             if (!helps(slot, me)) continue;
             const bool stands = me.speed_mps < kMinSpeed_mps && v_.speed_mps[at(slot)] < kMinSpeed_mps;
@@ -151,12 +152,12 @@ private:
         const Neighbour& follower = there.follower;
         if (must_let_pass(other, follower, me, change.urgency())) {
             const Neighbour opener = gap_opener(other, follower, me, change.urgency());
-            if (opener.slot >= 0) add_alignment(state_, part_, other, {opener.slot, opening_speed_mps(opener, me)});
+            if (opener.slot >= 0) add_speed_target(state_, part_, other, {opener.slot, opening_speed_mps(opener, me)});
             // If the follower itself does not open the gap, it goes first, and `me` falls back behind it.
             if (opener.slot != follower.slot)
                 target_mps = std::min(target_mps, std::max(follower.speed_mps - kFallBack_mps, kMinSpeed_mps));
         }
-        if (target_mps < me.speed_mps + 1.0) add_alignment(state_, part_, lane_, {me.slot, target_mps});
+        if (target_mps < me.speed_mps + 1.0) add_speed_target(state_, part_, lane_, {me.slot, target_mps});
     }
 
     int route_from(int other, const LaneChangeRequest& me) const {
@@ -174,8 +175,6 @@ private:
 
 void prepare_lane_changes(const Model& model, State& state, Partition& part) {
     if (state.plan.lanes_with_neighbours().empty()) return;
-    for (const int lane : part.lanes_with_alignments) state.gap_alignments[at(lane)].clear();
-    part.lanes_with_alignments.clear();
     if (state.gap_cooperation.is_on()) cooperate_on_gaps(model, state, part);
     for (const int lane : part.occupied) {
         if (state.plan.adjacent(lane).has_neighbours()) GapSearch(model, state, part, lane).search();

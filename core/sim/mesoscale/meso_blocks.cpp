@@ -108,7 +108,7 @@ public:
         StandingQueue& queue = state_.queues.standing[at(lane_)];
         int& sleep_group = state_.queues.sleeps_until_green[at(lane_)];
         if (sleep_group >= 0) {
-            cap_aligning_vehicles(true);
+            cap_at_speed_targets(true);
             cap_waiting_drivers(true);
             cap_behind_first();
             if (queue.end == block_.count) return;
@@ -118,7 +118,7 @@ public:
         if (is_near_end()) part_.lanes_near_end.push(lane_);
         // Removes the cap that held the first vehicle while the lane slept.
         v_.speed_cap_mps[at(first)] = kUnlimitedSpeed_mps;
-        cap_aligning_vehicles(false);
+        cap_at_speed_targets(false);
         cap_waiting_drivers(false);
         if (last_stopping_slot() > first + queue.first) queue.last_external_tick = state_.tick;
         update_queue(v_, block_, state_.tick, queue);
@@ -128,7 +128,7 @@ public:
             cap_all();
             return add_blocks(first, block_.past_last());
         }
-        if (queue.first == 0 && queue.end > 0 && !first_aligns_ && waits_only_for_signal()) {
+        if (queue.first == 0 && queue.end > 0 && !first_has_target_ && waits_only_for_signal()) {
             sleep_group = state_.plan.signal_group_for(lane_, v_.next_lane[at(first)]);
             // The kernels compute whole blocks of slots. So they also compute the first vehicle if it shares a block
             // with a vehicle that moves. A cap of 0 keeps the first vehicle at rest.
@@ -156,17 +156,17 @@ private:
         return v_.position_m[at(block_.first)] + step_m + kRounding_m >= end_m;
     }
 
-    // Caps the speed of vehicles that align with a gap in the adjacent lane. If the lane sleeps, skips its first
+    // Caps the speed of vehicles with a speed target. If the lane sleeps, skips its first
     // vehicle if this vehicle is at rest. A cap set by cap_speed() is removed after the step, so the vehicle would lose
     // the cap that holds it while the lane sleeps.
-    void cap_aligning_vehicles(bool sleeps) {
-        if (part_.lanes_with_alignments.empty()) return;
-        for (const GapAlignment& alignment : state_.gap_alignments[at(lane_)]) {
-            const double speed_mps = v_.speed_mps[at(alignment.slot)];
-            if (sleeps && alignment.slot == block_.first && speed_mps == 0.0) continue;
-            const double braking_step_mps = alignment.deceleration_mps2 * model_.step_s;
-            first_aligns_ = first_aligns_ || alignment.slot == block_.first;
-            cap_speed(alignment.slot, std::max(alignment.target_speed_mps, speed_mps - braking_step_mps));
+    void cap_at_speed_targets(bool sleeps) {
+        if (part_.lanes_with_speed_targets.empty()) return;
+        for (const SpeedTarget& target : state_.speed_targets[at(lane_)]) {
+            const double speed_mps = v_.speed_mps[at(target.slot)];
+            if (sleeps && target.slot == block_.first && speed_mps == 0.0) continue;
+            const double braking_step_mps = target.deceleration_mps2 * model_.step_s;
+            first_has_target_ = first_has_target_ || target.slot == block_.first;
+            cap_speed(target.slot, std::max(target.target_speed_mps, speed_mps - braking_step_mps));
         }
     }
 
@@ -256,7 +256,7 @@ private:
     const LanePlan& plan_;
     int stop_slot_;
     const YieldStops& yield_stops_;
-    bool first_aligns_ = false;  // true: the first vehicle aligns with a gap
+    bool first_has_target_ = false;  // true: the first vehicle has a speed target
 };
 
 }  // namespace

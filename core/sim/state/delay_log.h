@@ -93,6 +93,9 @@ struct DelayLog {
     std::int64_t refused = 0;          // number of times that cooperative clearing has begun to hold a vehicle
     std::int64_t refusal_ticks = 0;    // time for which refused vehicles were stopped at their line, ticks
     double refused_stop_s = 0.0;       // the same in s; set at the end of the run
+    std::int64_t stops = 0;            // number of times that a vehicle stops
+    std::int64_t advised_ticks = 0;    // time for which vehicles follow speed advice, ticks
+    double advised_s = 0.0;            // the same in s; set at the end of the run
     double longest_stop_s = 0.0;       // duration of the longest single stop of any vehicle
 };
 

@@ -190,6 +190,18 @@ void ensure_free_slot(State& state, int lane) {
     if (!take_from_neighbours(state, lane)) repack(state, {});
 }
 
+void add_speed_target(State& state, Partition& part, int lane, const SpeedTarget& target) {
+    std::vector<SpeedTarget>& targets = state.speed_targets[at(lane)];
+    if (targets.empty()) part.lanes_with_speed_targets.push_back(lane);
+    targets.push_back(target);
+    state.queues.standing[at(lane)].last_external_tick = state.tick;
+}
+
+void clear_speed_targets(State& state, Partition& part) {
+    for (const int lane : part.lanes_with_speed_targets) state.speed_targets[at(lane)].clear();
+    part.lanes_with_speed_targets.clear();
+}
+
 void ensure_teleport_slot(State& state) {
     if (!has_free_slot(state, state.congestion.teleporting) && !state.vehicles.has_powertrain()) repack(state, {});
 }

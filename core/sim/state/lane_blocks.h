@@ -26,6 +26,11 @@ void reserve_blocks(State& state, const std::vector<int>& expected);
 // Ensures that a lane has a free slot after its last vehicle, and wakes the lane.
 void ensure_free_slot(State& state, int lane);
 
+// Adds a speed target for a vehicle on a lane of a partition, for the present step.
+void add_speed_target(State& state, Partition& part, int lane, const SpeedTarget& target);
+// Removes the speed targets of the previous step from the lanes of a partition.
+void clear_speed_targets(State& state, Partition& part);
+
 // Makes a free slot in the block of teleported vehicles if the block has none. In full dynamics the block cannot grow,
 // so it can still be full after the call.
 void ensure_teleport_slot(State& state);

@@ -62,6 +62,7 @@ struct DriverPlan {
     GiveWaySettings give_way;
     LaneChangeSettings lane_change;
     HumanSettings human;
+    SpeedAdviceSettings speed_advice;
     bool is_human = false;  // true: a human driver (driver/human.h); false: an automated vehicle
     double hesitation_s = 0.0;
     std::int64_t hesitation_ticks = 0;  // reaction time of the first vehicle at a stop line when its signal turns green
@@ -107,6 +108,7 @@ struct Model {
     // Indices of the two detectors that stand for the start and the end of a trip. They are on no lane. -1: none.
     int trips_begin = -1;
     int trips_end = -1;
+    bool has_speed_advice = false;    // true: some drivers get speed advice from signals
     bool has_speed_limiters = false;  // true: the maximum speed of some vehicles is below the speed limit of a lane
     // Settings of the mesoscale mode.
     bool meso = false;                      // true: mesoscale mode; false: full dynamics

@@ -85,7 +85,7 @@ struct Partition {
     std::vector<int> occupied_connections;     // connections with at least one JunctionOccupant
     std::vector<BrakingDemand> extra_demands;  // full dynamics: braking for hidden leaders, in the order of slots
     std::vector<int> lanes_with_yield_stops;
-    std::vector<int> lanes_with_alignments;
+    std::vector<int> lanes_with_speed_targets;
     IndexBuffer stopped_slots;           // slots of stopped vehicles; valid in steps that attribute delays
     int earliest_stop_tick = 0;          // tick at which the longest stop of a vehicle in stopped_slots began
     IndexBuffer lanes_near_end;          // mesoscale mode: lanes whose first vehicle may leave the lane in this step
@@ -102,6 +102,8 @@ struct Partition {
     std::int64_t passed_blockers = 0;
     std::int64_t refused = 0;        // vehicles that cooperative clearing begins to hold
     std::int64_t refusal_ticks = 0;  // number of refused vehicles that are stopped at their line
+    std::int64_t stops = 0;          // vehicles that stop; counted in steps that attribute delays
+    std::int64_t advised = 0;        // vehicles that follow speed advice
     GapCounts gap_counts;
     Violations violations;
     std::vector<Crossing> crossings;

@@ -13,7 +13,7 @@ struct StandingQueue {
     int first = 0;  // index of the first vehicle of the queue
     int end = 0;    // index after the last vehicle of the queue
     // Latest tick at which something other than a leader may have acted on the vehicles behind the first one: an
-    // insertion, a lane change, a gap alignment, a stop line, a yield stop or the reaction time of a human driver at
+    // insertion, a lane change, a speed target, a stop line, a yield stop or the reaction time of a human driver at
     // its start.
     std::int64_t last_external_tick = -1;
     // Index after the last vehicle that may have moved in the previous step because of a start message. This vehicle is

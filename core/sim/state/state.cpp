@@ -154,7 +154,7 @@ State make_state(const Model& model, int threads) {
     state.stop_lines.held_at_green.resize(lanes);
     state.stop_lines.exit_rooms.resize(lanes);
     size_junctions(model, state.junctions, state);
-    state.gap_alignments.resize(lanes);
+    state.speed_targets.resize(lanes);
     state.queues.standing.resize(lanes);
     state.queues.sleeps_until_green.assign(lanes, -1);
     size_detectors(model, state.detectors);

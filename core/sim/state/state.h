@@ -9,7 +9,6 @@
 #include "sim/state/clearing_state.h"
 #include "sim/state/congestion_state.h"
 #include "sim/state/detector_state.h"
-#include "sim/state/gap_alignment.h"
 #include "sim/state/gap_requests.h"
 #include "sim/state/insertion_state.h"
 #include "sim/state/junction_state.h"
@@ -19,6 +18,7 @@
 #include "sim/state/prescribed_acceleration.h"
 #include "sim/state/queue_state.h"
 #include "sim/state/run_records.h"
+#include "sim/state/speed_target.h"
 #include "sim/state/stop_line_state.h"
 #include "sim/state/vehicles/delay_rows.h"
 #include "sim/state/vehicles/vehicle_arrays.h"
@@ -49,7 +49,7 @@ struct State {
     StopLines stop_lines;
     ClearingState clearing;
     JunctionState junctions;
-    std::vector<std::vector<GapAlignment>> gap_alignments;  // [lane]
+    std::vector<std::vector<SpeedTarget>> speed_targets;  // [lane] targets of the present step
     GapCooperation gap_cooperation;
     QueueState queues;
     DetectorState detectors;

@@ -15,7 +15,7 @@ namespace stopline {
 namespace {
 
 // Appends a lane and its demands to a group. A demand is an acceleration that a vehicle must not exceed because of a
-// stop line, yielding, a hidden leader (perception/hidden_leaders.h), the alignment with a gap or a prescription.
+// stop line, yielding, a hidden leader (perception/hidden_leaders.h), a speed target or a prescription.
 // `hidden_leader_demands` lists the demands because of hidden leaders, in the order of slots. The function takes the
 // demands on the vehicles of this lane off this list.
 void add_lane(const Model& model, const State& state, int lane, std::span<const BrakingDemand>& hidden_leader_demands,
@@ -43,10 +43,10 @@ void add_lane(const Model& model, const State& state, int lane, std::span<const 
         demand(hidden_leader_demands.front().slot, hidden_leader_demands.front().acceleration_mps2);
         hidden_leader_demands = hidden_leader_demands.subspan(1);
     }
-    for (const GapAlignment& alignment : state.gap_alignments[at(lane)]) {
+    for (const SpeedTarget& target : state.speed_targets[at(lane)]) {
         const double acceleration_mps2 =
-            (alignment.target_speed_mps - v.speed_mps[at(alignment.slot)]) / GapAlignment::kTimeToTarget_s;
-        demand(alignment.slot, std::max(acceleration_mps2, -alignment.deceleration_mps2));
+            (target.target_speed_mps - v.speed_mps[at(target.slot)]) / SpeedTarget::kTimeToTarget_s;
+        demand(target.slot, std::max(acceleration_mps2, -target.deceleration_mps2));
     }
     if (state.prescribed.vehicle >= 0 && v.id[at(block.first)] == state.prescribed.vehicle) {
         demand(block.first, state.prescribed.acceleration_mps2);

@@ -23,7 +23,9 @@
 #include "sim/mesoscale/meso_blocks.h"
 #include "sim/perception/look_ahead.h"
 #include "sim/performance/prefetch.h"
+#include "sim/speed_advice/speed_advice.h"
 #include "sim/state/events.h"
+#include "sim/state/lane_blocks.h"
 #include "sim/step/detectors.h"
 #include "sim/step/move_vehicles.h"
 #include "sim/step/occupied_lanes.h"
@@ -81,7 +83,9 @@ void Simulation::decide(Partition& part) {
     find_junction_occupants(state_, state_.junctions, part);
     decide_stop_lines(model_, state_, part);
     decide_right_of_way(model_, state_, part);
+    clear_speed_targets(state_, part);
     prepare_lane_changes(model_, state_, part);
+    if (model_.has_speed_advice) advise_speeds(model_, state_, part);
     if (model_.meso) collect_moving_blocks(model_, state_, part);
 }
 
@@ -110,7 +114,7 @@ void Simulation::watch_delays_in_parallel() {
     prepare_delay_watch(model_, state_, state_.congestion.watch);
 #pragma omp for schedule(static, 1)
     for (int thread = 0; thread < threads_; ++thread) {
-        for_each_partition(thread, [&](Partition& part) { find_stopped_vehicles(state_, part); });
+        for_each_partition(thread, [&](Partition& part) { find_stopped_vehicles(model_, state_, part); });
     }
 #pragma omp for schedule(static, 1)
     for (int thread = 0; thread < threads_; ++thread) {

@@ -9,6 +9,7 @@
 //     stop lines  vehicles that stop for a signal or the keep-clear rule        junction/stop_lines
 //     yielding    vehicles that yield before a conflict area                    junction/right_of_way
 //     gaps        alignment with gaps in the target lane                        lane_change/gap_search
+//     advice      speeds with which vehicles arrive at green                    speed_advice/speed_advice
 //     selection   mesoscale mode: vehicles that can move                        mesoscale/meso_blocks
 //   at intervals:
 //     delay       stopped vehicles and the causes of their delay                congestion/delay_causes

@@ -165,4 +165,23 @@ const Table& v2v_table() {
     return table;
 }
 
+const Table& speed_advice_table() {
+    using S = SpeedAdviceSettings;
+    static const Table table = make_table<S>(
+        "speed advice of signals",
+        {
+            choice<&S::mode>("mode", {"off", "glosa"},
+                             "glosa: the signal announces its next green, and the vehicle slows down early so that it "
+                             "arrives at green without a stop (green light optimal speed advisory)"),
+            number<&S::range_m>("range", "m", {10, 10'000},
+                                "distance to the stop line within which the vehicle gets the messages of the signal")
+                .only_if("mode", {"glosa"}),
+            number<&S::min_speed_mps>("min_speed", "km/h", {1, 200}, "lowest advised speed").only_if("mode", {"glosa"}),
+            number<&S::deceleration_mps2>("deceleration", "m/s2", {0.1, 5},
+                                          "strongest braking towards the advised speed")
+                .only_if("mode", {"glosa"}),
+        });
+    return table;
+}
+
 }  // namespace stopline

@@ -17,7 +17,7 @@ struct LaneStep {
     int count() const { return stop - begin; }
 };
 
-// The acceleration that one vehicle must not exceed. The reason is a stop line, yielding, a gap alignment, or a vehicle
+// The acceleration that one vehicle must not exceed. The reason is a stop line, yielding, a speed target, or a vehicle
 // that the leader hides (sim/perception/hidden_leaders.h).
 struct ExternalDemand {
     int index = 0;  // index of the vehicle in the group
