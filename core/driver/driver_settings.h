@@ -142,8 +142,8 @@ struct HumanSettings {
     bool operator==(const HumanSettings&) const = default;
 };
 
-// Green light optimal speed advisory (GLOSA): the signal tells the vehicle when it will be green (SPaT messages), and the
-// vehicle slows down early so that it arrives at green without a stop (sim/speed_advice/speed_advice.cpp).
+// Green light optimal speed advisory (GLOSA): the signal tells the vehicle when it will be green (SPaT messages), and
+// the vehicle slows down early so that it arrives at green without a stop (sim/speed_advice/speed_advice.cpp).
 struct SpeedAdviceSettings {
     std::string mode = "off";         // off | glosa
     double range_m = 300.0;           // distance to the stop line within which the vehicle gets messages

@@ -1,9 +1,9 @@
-// The scorecard compares our numbers with the numbers of the paper, one row of data/paper/targets.csv at a time. It also
-// has the rows of data/paper/own_rows.csv: results of ours that the paper does not have. A row function reads our answer
-// to a row from the measurements of one experiment. A row without a function has the verdict 'open'.
+// The scorecard compares our numbers with the numbers of the paper, one row of data/paper/targets.csv at a time. It
+// also has the rows of data/paper/own_rows.csv: results of ours that the paper does not have. A row function reads our
+// answer to a row from the measurements of one experiment. A row without a function has the verdict 'open'.
 //
-// Each section of the paper has a file sections/scorecard_section<N>.cpp with its experiments and row functions. The own
-// rows have a file for each subject. scorecard.cpp concatenates the lists of all files.
+// Each section of the paper has a file sections/scorecard_section<N>.cpp with its experiments and row functions. The
+// own rows have a file for each subject. scorecard.cpp concatenates the lists of all files.
 #pragma once
 
 #include <filesystem>

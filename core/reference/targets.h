@@ -1,5 +1,5 @@
-// Loads the files data/paper/targets.csv and data/paper/own_rows.csv. Each row of the first file holds one input, target
-// or claim of the paper. Each row of the second file names a result of ours that the paper does not have.
+// Loads the files data/paper/targets.csv and data/paper/own_rows.csv. Each row of the first file holds one input,
+// target or claim of the paper. Each row of the second file names a result of ours that the paper does not have.
 #pragma once
 
 #include <filesystem>

@@ -46,8 +46,8 @@ struct SignalController {
     // later.
     std::int64_t (*step)(SignalView& view);
     // Announces greens (the SPaT messages of an intersection). Returns the first green of a group that ends after
-    // `after_tick`, as far as the controller knows it at the present tick. The green may last longer than announced, but
-    // not shorter. nullptr: the controller announces nothing.
+    // `after_tick`, as far as the controller knows it at the present tick. The green may last longer than announced,
+    // but not shorter. nullptr: the controller announces nothing.
     GreenWindow (*next_green)(const SignalView& view, int group, std::int64_t after_tick) = nullptr;
     // Returns how many numbers the controller keeps in SignalView::memory(). They are 0 before init(). nullptr: none.
     std::size_t (*memory_size)(const SignalPlan& plan) = nullptr;

@@ -109,8 +109,8 @@ private:
         return margin_m + braking.reaction_s * speed_mps + 0.5 * square(speed_mps) / b;
     }
 
-    // Sets the speed with which the vehicle passes the stop line as soon as it can. A vehicle brakes near the stop line as
-    // long as the light is red, and for its reaction time afterwards. So it must not come that near before.
+    // Sets the speed with which the vehicle passes the stop line as soon as it can. A vehicle brakes near the stop line
+    // as long as the light is red, and for its reaction time afterwards. So it must not come that near before.
     void slow_down(int slot, double to_line_m, double passage_s, const SpeedAdviceSettings& advice) {
         constexpr int kIterations = 4;
         const double speed_mps = state_.vehicles.speed_mps[at(slot)];
@@ -141,8 +141,8 @@ private:
 
 double speed_for_arrival_mps(double speed_mps, double distance_m, double time_s, double deceleration_mps2) {
     if (speed_mps * time_s <= distance_m) return distance_m / time_s;
-    // Braking from v to w takes (v - w) / b and covers (v^2 - w^2) / (2 b); the rest of the distance is driven at w. The
-    // equation for the time is quadratic in w.
+    // Braking from v to w takes (v - w) / b and covers (v^2 - w^2) / (2 b); the rest of the distance is driven at w.
+    // The equation for the time is quadratic in w.
     const double b = deceleration_mps2;
     const double root = square(b * time_s) - 2.0 * b * (speed_mps * time_s - distance_m);
     if (root < 0.0) return 0.0;

@@ -49,7 +49,8 @@ network=("${brief[@]}" --set "duration=130 s" --set "measure.window=60 s")
 run grid "$STOPLINE_SOURCE/scenarios/grid.yaml" "${network[@]}" --set network.grid.columns=2 --set network.grid.rows=2 \
     --set "measure.time_space=30 s"
 check_all grid network 8
-run streets "$STOPLINE_SOURCE/scenarios/berlin.yaml" "${network[@]}" --set driver.lane_change.gap_opening=cooperative
+run streets "$STOPLINE_SOURCE/scenarios/berlin.yaml" "${network[@]}" --set driver.lane_change.gap_opening=cooperative \
+    --set driver.speed_advice.mode=glosa
 check_all streets network 10
 cp "$STOPLINE_SOURCE"/tests/data/fast_random.*.xml "$work"
 cat >"$work/imported.yaml" <<'END'
@@ -91,7 +92,8 @@ END
 }
 network=(--set 'populations=[CDG]' --set measure.baseline=CDG --set "duration=130 s" --set "measure.window=60 s")
 sweep of_grid "$STOPLINE_SOURCE/scenarios/grid.yaml" "${network[@]}" --set network.grid.columns=2 --set network.grid.rows=2
-sweep of_streets "$STOPLINE_SOURCE/scenarios/berlin.yaml" "${network[@]}" --set driver.lane_change.gap_opening=cooperative
+sweep of_streets "$STOPLINE_SOURCE/scenarios/berlin.yaml" "${network[@]}" --set driver.lane_change.gap_opening=cooperative \
+    --set driver.speed_advice.mode=glosa
 sweep of_intersection "$STOPLINE_SOURCE/scenarios/intersection.yaml" --set measure.cycles=1 --set 'populations=[CDG]' \
     --set measure.baseline=CDG
 sweep of_light "$STOPLINE_SOURCE/scenarios/first_steps.yaml" --set measure.string_stability=on
