@@ -23,7 +23,8 @@ enum class Purpose : std::uint64_t {
     fit_start = 6,
     driver = 7,
     v2v = 8,
-    courtesy = 9
+    courtesy = 9,
+    arrival = 10
 };
 
 // Returns the SplitMix64 finaliser of z. `Words` is std::uint64_t or a vector of std::uint64_t.

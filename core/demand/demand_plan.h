@@ -56,6 +56,9 @@ struct DemandPlan {
         // than other lanes. Empty: no correction.
         std::vector<double> approach_shares = {};
         double headway_s = 0.0;  // > 0: vehicles arrive with this constant headway, even if `saturated` is set
+        // The next two lists are used only if `has_arrival_times` is set.
+        std::vector<double> arrivals_s = {};  // arrival times of the vehicles, ascending
+        std::vector<int> paths = {};          // [arrival] start of the vehicle's path in path_routes; -1: no path
     };
     std::vector<Inlet> inlets;  // entry lanes, then link lanes
     double entry_speed_mps = 0.0;
@@ -65,9 +68,17 @@ struct DemandPlan {
     // The backlog of every inlet is endless, and vehicles enter as an endless platoon: each has the speed of the
     // vehicle ahead and the desired gap of its own policy.
     bool saturated = false;
+    // True: vehicles arrive at the times in Inlet::arrivals_s. Vehicles that find no room form a backlog.
+    bool has_arrival_times = false;
+    // Paths of vehicles: sequences of routes. Each path ends with -1. Beyond its end, routes are drawn.
+    std::vector<int> path_routes;
     bool is_saturated(int inlet) const { return saturated && inlets[static_cast<std::size_t>(inlet)].headway_s == 0.0; }
     bool is_evenly_spaced(int inlet) const {
         return evenly_spaced || inlets[static_cast<std::size_t>(inlet)].headway_s > 0.0;
+    }
+    // Returns true if each vehicle of the inlet has an arrival time, so that a vehicle without room waits in a backlog.
+    bool forms_backlog(int inlet) const {
+        return has_arrival_times || (!is_saturated(inlet) && is_evenly_spaced(inlet));
     }
     double inlet_headway_s(int inlet) const {
         const double own_s = inlets[static_cast<std::size_t>(inlet)].headway_s;

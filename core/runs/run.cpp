@@ -8,6 +8,7 @@
 #include "base/containers/index.h"
 #include "scenario/build_model.h"
 #include "sim/perception/look_ahead.h"
+#include "sim/insertion/insert_vehicles.h"
 
 namespace stopline {
 
@@ -61,6 +62,8 @@ void finish(const Simulation& simulation, RunResult& result) {
     result.passages = state.records.passages;
     result.violations = state.records.violations;
     result.v2v = v2v_result(state.records, simulation.model().v2v_plan);
+    result.departure = departure_delays(simulation.model(), state);
+    result.backlog = insertion_backlog(simulation.model(), state);
     result.vehicles_entered = state.records.entered;
     result.vehicles_exited = state.records.exited;
     result.updates = state.records.updates;

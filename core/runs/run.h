@@ -11,6 +11,7 @@
 #include "runs/v2v_results.h"
 #include "scenario/scenario.h"
 #include "sim/state/events.h"
+#include "sim/state/insertion_state.h"
 #include "sim/step/simulation.h"
 
 namespace stopline {
@@ -53,6 +54,8 @@ struct RunResult {
     std::vector<double> queue_gaps_m;  // net gaps in the queue of the first lane at the start of green
     Violations violations;
     V2vResult v2v;
+    DepartureDelays departure;  // departure delays of all vehicles that arrived
+    std::int64_t backlog = 0;   // vehicles that found no room to enter until the end of the run
     std::int64_t vehicles_entered = 0;
     std::int64_t vehicles_exited = 0;
     std::int64_t updates = 0;  // number of vehicles in the network, summed over all steps

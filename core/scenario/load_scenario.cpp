@@ -9,6 +9,7 @@
 #include "base/io/data_directory.h"
 #include "base/nearest_name.h"
 #include "scenario/compose.h"
+#include "scenario/demand/traffic_file.h"
 #include "scenario/driving_checks.h"
 #include "scenario/files/file_name.h"
 #include "scenario/import_sumo.h"
@@ -92,6 +93,10 @@ Scenario scenario_from(SourceNode root, const std::vector<std::string>& override
         }
         report.throw_if_any();
     }
+    for (const auto& [field, problem] : read_traffic_file(scenario, source.directory)) {
+        report.error(report.place_of(field), "field '" + field + "': " + problem);
+    }
+    report.throw_if_any();
     scenario.hash = scenario_hash(scenario);
     scenario.warnings = report.warnings();
     for (std::string& line : range_warnings(scenario)) scenario.warnings.push_back(std::move(line));
@@ -178,6 +183,7 @@ std::uint64_t scenario_hash(const Scenario& scenario) {
         hash ^= static_cast<unsigned char>(c);
         hash *= 0x100000001b3u;
     }
+    if (const std::uint64_t file = traffic_file_hash(scenario); file != 0) hash = (hash ^ file) * 0x100000001b3u;
     if (const std::uint64_t files = sumo_files_hash(scenario); files != 0) hash = (hash ^ files) * 0x100000001b3u;
     return hash;
 }

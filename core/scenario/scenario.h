@@ -29,6 +29,7 @@ struct MeasureSettings {
     // For all networks with intersections: a movement starves if the first vehicle of its queue has been stopped for
     // this time and for two cycles of its signal, although no vehicle ahead blocks its way. 0: never.
     double starvation_s = 300.0;
+    std::string departure_delay = "off";  // off | on: report the times from arrival to entry
     // For networks of several intersections only:
     double area_margin_m = 20.0;           // distance from the outer intersections to the boundary of the measured area
     double interval_s = 60.0;              // interval of the time series
@@ -64,6 +65,8 @@ struct Scenario {
     // Returns the nominal cycle of the intersections. For an imported network, returns the longest cycle and the
     // longest green of all signals.
     NominalCycle nominal_cycle() const;
+    // Returns the time at which the run ends: duration_s, or the end of the measured cycles if that is 0.
+    double end_s() const;
 };
 
 }  // namespace stopline

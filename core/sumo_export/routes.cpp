@@ -30,6 +30,10 @@ public:
         for (const PlainConnection& c : network.connections) {
             next_edges_[at(c.begin.edge)].push_back(c.end.edge);
         }
+        inlet_of_.assign(model.graph.lanes.size(), -1);
+        for (std::size_t k = 0; k < model.demand.inlets.size(); ++k) {
+            inlet_of_[at(model.demand.inlets[k].lane)] = static_cast<int>(k);
+        }
     }
 
     void observe(const State& state) override {
@@ -64,7 +68,7 @@ private:
         trip.route = v.record[slot].route;
         if (trip.lane == lane) return;
         if (trip.lane < 0) {
-            trip.depart_s = model_.time_s(state.tick);
+            trip.depart_s = arrival_s(state, lane);
             trip.depart_m = v.position_m[slot];
             trip.depart_mps = v.speed_mps[slot];
             trip.depart_lane = lane;
@@ -73,6 +77,17 @@ private:
         trip.lane = lane;
         if (trip.edges.empty()) trip.edges.push_back(network_.part_at(lane, v.position_m[slot]).edge);
         add_edges_of(lane, trip.edges);
+    }
+
+    // Returns the departure time for SUMO of a vehicle that has just entered on `lane`: its arrival time if it has one,
+    // else the time of its entry. SUMO has a backlog of its own.
+    double arrival_s(const State& state, int lane) const {
+        const int inlet = inlet_of_[at(lane)];
+        const double now_s = model_.time_s(state.tick);
+        if (!model_.demand.has_arrival_times || inlet < 0) return now_s;
+        const std::int64_t entered = state.insertion.inlets[at(inlet)].entered_arrivals;
+        if (entered == 0) return now_s;  // a vehicle of an initial queue
+        return model_.demand.inlets[at(inlet)].arrivals_s[static_cast<std::size_t>(entered - 1)];
     }
 
     // Adds the edges of a lane to the route. If the route already ends on one of these edges, adds only the edges of
@@ -163,6 +178,7 @@ private:
     const Model& model_;
     const PlainNetwork& network_;
     std::vector<std::vector<int>> next_edges_;  // [edge] edges to which the edge leads
+    std::vector<int> inlet_of_;                 // [lane] index in DemandPlan::inlets; -1: none
     std::map<int, Trip> trips_;                 // [vehicle]
 };
 

@@ -170,7 +170,8 @@ const MetricList<MeasuredIntersection>& intersection_metrics() {
     static const MetricList<MeasuredIntersection> kMetrics = joined_lists<MeasuredIntersection>(
         {zone_metrics(), discharge_metrics(), junction_metrics(),
          count_metrics<MeasuredIntersection>(
-             {"overlaps", "conflicts", "red_entries", "forced_red_entries", "lost_vehicles", "deadlocks"})});
+             {"overlaps", "conflicts", "red_entries", "forced_red_entries", "lost_vehicles", "deadlocks"}),
+         departure_metrics<MeasuredIntersection>()});
     return kMetrics;
 }
 

@@ -8,6 +8,7 @@
 #include "base/speed_thresholds.h"
 #include "scenario/build_model.h"
 #include "scenario/fleets.h"
+#include "sim/insertion/insert_vehicles.h"
 
 namespace stopline {
 
@@ -255,6 +256,8 @@ IntersectionResult run_intersection(const Scenario& scenario, std::size_t popula
     result.starvations = state.congestion.delays.starvations;
     result.violations = state.records.violations;
     result.v2v = v2v_result(state.records, model.v2v_plan);
+    result.departure = departure_delays(model, state);
+    result.backlog = insertion_backlog(model, state);
     // A run has a deadlock if a vehicle stays in the intersection for slowest_crossing_s() plus two signal cycles or
     // longer.
     const double deadlock_s = 2.0 * cycle_of(scenario) + slowest_crossing_s(model);

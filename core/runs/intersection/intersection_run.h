@@ -45,6 +45,8 @@ struct IntersectionResult {
     std::vector<Light> snapshot_lights;  // [signal group] at the time of the snapshot
     Violations violations;
     V2vResult v2v;
+    DepartureDelays departure;  // departure delays of all vehicles that arrived
+    std::int64_t backlog = 0;   // vehicles that found no room to enter until the end of the run
     std::int64_t entered = 0;
     std::int64_t exited = 0;
     std::int64_t updates = 0;  // number of vehicles in the network, summed over all steps

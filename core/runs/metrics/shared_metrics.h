@@ -9,8 +9,10 @@
 #include <fmt/format.h>
 
 #include "runs/metrics/metric.h"
+#include "base/nan.h"
 #include "runs/v2v_results.h"
 #include "sim/state/events.h"
+#include "sim/state/insertion_state.h"
 #include "v2v/fallback.h"
 
 namespace stopline {
@@ -23,6 +25,8 @@ struct RunCounts {
     std::int64_t updates;  // number of vehicles in the network, summed over all steps
     std::uint64_t state_hash;
     const V2vResult& v2v;
+    const DepartureDelays& delays;
+    std::int64_t backlog;  // vehicles that have arrived but not entered at the end of the run
 };
 
 // Returns the shares of the time in the modes of V2V (v2v/fallback.h). They are in the tables of sweeps.
@@ -121,6 +125,44 @@ MetricList<Run> count_metrics(std::initializer_list<std::string_view> in_summary
     for (Metric<Run>& metric : metrics) {
         const bool is_named = std::find(in_summary.begin(), in_summary.end(), metric.column) != in_summary.end();
         if (!is_named) metric.summary_decimals = kLeftOut;
+    }
+    return metrics;
+}
+
+// Returns the metrics of the time from the arrival of vehicles to their entry. Only scenarios with
+// `measure.departure_delay: on` have them.
+template <class Run>
+MetricList<Run> departure_metrics() {
+    MetricList<Run> metrics{
+        {.column = "departure_delay_mean_s",
+         .unit = "s",
+         .extent = "run",
+         .meaning = "mean time from the arrival of a vehicle to its entry; vehicles that still wait at the end count "
+                    "with the time since their arrival; empty: no vehicle has an arrival time, as with saturated "
+                    "inlets and queues. Written with `measure.departure_delay: on`, as the next columns",
+         .value = [](const Run& run) { return run.counts().delays.mean_s(); },
+         .summary_decimals = 3,
+         .console = {.heading = "departure\ndelay",
+                     .decimals = 1,
+                     .note = "mean time from the arrival of a vehicle to its entry"}},
+        {.column = "departure_delay_max_s",
+         .unit = "s",
+         .extent = "run",
+         .meaning = "longest of these times",
+         .value = [](const Run& run) { return run.counts().delays.vehicles > 0 ? run.counts().delays.max_s : kNan; },
+         .summary_decimals = 3},
+        {.column = "arrived_vehicles",
+         .unit = "veh",
+         .extent = "run",
+         .meaning = "vehicles that arrived, with or without room to enter",
+         .value = [](const Run& run) { return run.counts().delays.vehicles; }},
+        {.column = "waiting_vehicles",
+         .unit = "veh",
+         .extent = "end of the run",
+         .meaning = "vehicles that arrived but found no room to enter",
+         .value = [](const Run& run) { return run.counts().backlog; }}};
+    for (Metric<Run>& metric : metrics) {
+        metric.asked_for = [](const Scenario& scenario) { return scenario.measure.departure_delay == "on"; };
     }
     return metrics;
 }

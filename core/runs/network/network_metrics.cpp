@@ -410,7 +410,7 @@ const MetricList<MeasuredNetwork>& network_metrics() {
          speed_advice_metrics(), street_metrics(), stop_metrics(), trip_metrics(),
          count_metrics<MeasuredNetwork>(
              {"overlaps", "conflicts", "red_entries", "forced_red_entries", "lost_vehicles"}),
-         backlog_metrics()});
+         backlog_metrics(), departure_metrics<MeasuredNetwork>()});
     return kMetrics;
 }
 

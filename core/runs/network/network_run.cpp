@@ -271,6 +271,17 @@ void measure(const Scenario& scenario, const Model& model, const State& state, c
     }
 }
 
+// Returns the departure delays by approach of the graph. Imported networks have trips instead of inlets, so their
+// delays are 0 here.
+std::vector<DepartureDelays> approach_departures(const Model& model, const State& state) {
+    std::vector<DepartureDelays> delays(model.graph.approaches.size());
+    for (int inlet = 0; inlet < static_cast<int>(model.demand.inlets.size()); ++inlet) {
+        const int approach = model.graph.lanes[at(model.demand.inlets[at(inlet)].lane)].approach;
+        if (approach >= 0) delays[at(approach)].add(departure_delays(model, state, inlet));
+    }
+    return delays;
+}
+
 // Smallest number of vehicles for which several threads share a step. With fewer vehicles, a step takes only some tens
 // of microseconds, and a second thread costs more than it saves.
 constexpr int kSharedFromMeso = 4000;
@@ -339,6 +350,8 @@ NetworkResult run_network(const Scenario& scenario, std::size_t population,
     result.congestion = congestion.congestion();
     result.missed_turns = state.congestion.missed_turns;
     result.backlog = insertion_backlog(model, state);
+    result.departure = departure_delays(model, state);
+    result.approach_departures = approach_departures(model, state);
     if (model.trips_begin < 0) {
         result.inflow = inflow_series(model.graph, model.detectors, state.records.crossings,
                                       scenario.measure.interval_s, model.time_s(state.tick));

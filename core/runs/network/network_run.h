@@ -57,6 +57,8 @@ struct NetworkResult {
     GapCounts gap_counts;  // outcomes of cooperative gap opening
     Violations violations;
     V2vResult v2v;
+    DepartureDelays departure;                         // departure delays of all vehicles that arrived
+    std::vector<DepartureDelays> approach_departures;  // [approach] the same for streets
     double longest_in_junction_s = 0.0;
     double vehicles_present = 0.0;  // mean number of vehicles in the whole network over the measured window
     int max_present = 0;            // largest number of vehicles in the whole network

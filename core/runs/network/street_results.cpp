@@ -52,18 +52,20 @@ std::string approaches_csv(const NetworkReport& report) {
 
 std::string turns_csv(const NetworkReport& report) {
     CsvWriter csv({"population", "approach", "vehicles", "right_percent", "right_target_percent", "left_percent",
-                   "left_target_percent", "congested_from_s"});
+                   "left_target_percent", "congested_from_s", "departure_delay_mean_s", "departure_delay_max_s"});
     const LaneGraph graph = make_network(report.scenario.network);
     for (const NetworkResult& f : report.populations) {
         for (std::size_t k = 0; k < f.turn_counts.size(); ++k) {
             const Approach& approach = graph.approaches[k];
             const auto& turned = f.turn_counts[k];
+            const DepartureDelays& departure = f.approach_departures[k];
             csv.row({f.population, approach.name,
                      std::to_string(turned[index_of(Turn::straight)] + turned[index_of(Turn::right)] +
                                     turned[index_of(Turn::left)]),
                      fixed(share_percent(turned, Turn::right), 2), fixed(100.0 * approach.right_share, 2),
                      fixed(share_percent(turned, Turn::left), 2), fixed(100.0 * approach.left_share, 2),
-                     fixed(f.congestion.congested_from_s(k).value_or(kNan), 0)});
+                     fixed(f.congestion.congested_from_s(k).value_or(kNan), 0), fixed(departure.mean_s(), 3),
+                     fixed(departure.vehicles > 0 ? departure.max_s : kNan, 3)});
         }
     }
     return csv.text();

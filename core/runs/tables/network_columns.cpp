@@ -134,7 +134,11 @@ std::vector<TableDoc> rule_and_vehicle_tables() {
           {"left_target_percent", "%", "", "share that the streets file sets"},
           {"congested_from_s", "s", "run",
            "time from which the mean speed in the upstream third of the approach is below 12 km/h for five "
-           "successive intervals; empty: never"}}},
+           "successive intervals; empty: never"},
+          {"departure_delay_mean_s", "s", "run",
+           "mean time from the arrival of a vehicle to its entry; empty: no vehicle has an arrival time, or none "
+           "enters here"},
+          {"departure_delay_max_s", "s", "run", "longest of these times"}}},
         {"network/time_space.csv",
          "Written if `measure.time_space` is set, for the last `measure.time_space` of the run.\n"
          "One row for each second and vehicle on one street, which begins on the side `measure.time_space_side`.",

@@ -6,6 +6,7 @@
 
 #include "base/containers/index.h"
 #include "network/side.h"
+#include "scenario/demand/plan_arrivals.h"
 #include "scenario/kinds/kind_parts.h"
 
 namespace stopline {
@@ -82,7 +83,7 @@ void add_drawn_demand(const Scenario& scenario, std::vector<DemandPlan::Inlet> i
     model.demand.route_pattern = demand.order == "random" ? DemandPlan::Pattern::random : DemandPlan::Pattern::balanced;
     const std::int64_t vehicles = demand.kind == "queue" ? demand.vehicles : std::numeric_limits<std::int64_t>::max();
     if (demand.kind == "rate") {
-        model.demand.entry_headway_s = lanes / demand.inflow_1ps;
+        model.demand.entry_headway_s = lanes / (demand.scale * demand.inflow_1ps);
         model.demand.evenly_spaced = true;
     }
     const double cross_headway_s = demand.cross_inflow_1ps > 0.0 ? lanes / demand.cross_inflow_1ps : 0.0;
@@ -95,6 +96,8 @@ void add_drawn_demand(const Scenario& scenario, std::vector<DemandPlan::Inlet> i
         model.demand.inlets[k].vehicles = used ? vehicles : 0;
         if (from_south_or_north(graph, lane)) model.demand.inlets[k].headway_s = cross_headway_s;
     }
+    if (demand.kind == "od") add_approaches(model.graph);
+    if (plans_arrivals(scenario)) plan_arrivals(scenario, model);
 }
 
 void add_intersection_demand(const Scenario& scenario, Model& model) {

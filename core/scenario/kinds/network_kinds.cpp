@@ -40,6 +40,11 @@ NominalCycle Scenario::nominal_cycle() const {
                                          : stopline::nominal_cycle(signal, kind.signal_groups);
 }
 
+double Scenario::end_s() const {
+    if (duration_s != 0.0) return duration_s;
+    return signal.first_green_s + (measure.warmup_cycles + measure.cycles) * nominal_cycle().cycle_s;
+}
+
 LaneGraph make_network(const NetworkSettings& network) { return network_kind(network).graph(network); }
 
 double radius_beyond_m(const NetworkSettings& network, const Lane& lane) {

@@ -7,6 +7,7 @@
 #include "base/containers/index.h"
 #include "network/generators/street_layout.h"
 #include "network/lane_graph.h"
+#include "scenario/demand/plan_arrivals.h"
 #include "scenario/kinds/kind_parts.h"
 #include "scenario/network_checks.h"
 #include "scenario/schema/fields.h"
@@ -69,8 +70,9 @@ void check_streets(const Scenario& scenario, Checker& check) {
         }
         check_whole_steps(scenario, field + ".offset", node.offset_s, check);
     }
-    if (scenario.demand.kind == "rate") {
-        check.error("demand.kind", "value 'rate' is not possible for streets: use queue or saturated");
+    if (scenario.demand.kind == "rate" && !plans_arrivals(scenario)) {
+        check.error("demand.kind",
+                    "value 'rate' needs demand.arrivals: poisson or platooned, or a demand.profile, in streets");
     }
     refuse_green_counts(scenario, check);
     check_pockets(scenario, check);

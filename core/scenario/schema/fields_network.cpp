@@ -172,26 +172,102 @@ const Table& signal_table() {
     return table;
 }
 
+namespace {
+
+const Table& profile_table() {
+    using S = ProfilePoint;
+    static const Table table = make_table<S>(
+        "a point of the profile of the arrival rate over time",
+        {
+            number<&S::from_s>("from", "min", {0, 20'000}, "time since the start of the run").required(),
+            number<&S::inflow>("inflow", "%", {0, 1000}, "arrival rate from this time on, in percent of `inflow`")
+                .required(),
+        });
+    return table;
+}
+
+void check_profile(const DemandSettings& demand, Checker& check) {
+    for (std::size_t k = 0; k < demand.profile.size(); ++k) {
+        const std::string field = "profile[" + std::to_string(k) + "].from";
+        const double from_s = demand.profile[k].from_s;
+        if (k == 0 && from_s != 0.0) {
+            check.error(field, "the profile must begin at 0 min, not at " + short_text(from_s, unit("min")));
+        } else if (k > 0 && from_s <= demand.profile[k - 1].from_s) {
+            check.error(field, "value " + short_text(from_s, unit("min")) + " must be above the time before, " +
+                                   short_text(demand.profile[k - 1].from_s, unit("min")));
+        }
+    }
+}
+
+void check_demand(const DemandSettings& demand, Checker& check) {
+    check_profile(demand, check);
+    const bool comes_from_file = demand.kind == "counts" || demand.kind == "od";
+    if (comes_from_file && demand.start == "queued") {
+        check.error("start", "value 'queued' is not possible with kind " + demand.kind +
+                                 ": the vehicles of the file enter an empty network");
+    }
+    if (demand.kind != "od") return;
+    for (const char* const field : {"right", "left", "cross_turns"}) {
+        if (check.given(field)) check.error(field, "has no effect with kind od: the matrix determines the routes");
+    }
+}
+
+}  // namespace
+
 const Table& demand_table() {
     static const Table table = make_table<DemandSettings>(
         "the traffic that enters the network",
         {
             choice<&DemandSettings::kind>(
-                "kind", {"queue", "saturated", "rate"},
+                "kind", {"queue", "saturated", "rate", "counts", "od"},
                 "queue: a fixed number of `vehicles` per lane enters; saturated: a vehicle is always "
-                "waiting to enter; rate: vehicles arrive at the rate `inflow`"),
+                "waiting to enter; rate: vehicles arrive at the rate `inflow`; counts: the vehicles of a file with "
+                "detector counts arrive; od: the vehicles of an origin-destination matrix arrive and follow the "
+                "shortest routes"),
             texts<&DemandSettings::approaches>(
                 "approaches", TextField::Rule::name, {0, 1000},
                 "approaches where vehicles enter, such as south or c1r0_south (the beginning of the names of the "
                 "lanes); an approach between two intersections is possible too; empty: all entries of the network")
                 .fallback("[]")
-                .renamed_from("arms"),
+                .renamed_from("arms")
+                .only_if("kind", {"queue", "saturated", "rate"}),
             whole_number<&DemandSettings::vehicles>("vehicles", {1, 100'000}, "number of vehicles per lane")
                 .only_if("kind", {"queue"}),
             number<&DemandSettings::inflow_1ps>(
                 "inflow", "veh/h", {1, 100'000},
-                "arrival rate per approach; the arrivals are evenly spaced in time and spread evenly over the lanes")
+                "arrival rate per approach; the arrivals are spread evenly over the lanes")
                 .only_if("kind", {"rate"}),
+            choice<&DemandSettings::arrivals>(
+                "arrivals", {"even", "poisson", "platooned"},
+                "process of arrivals on each lane; even: no scatter; poisson: exponential headways; platooned: platoons "
+                "with exponential gaps between them (Cowan's model M3)")
+                .only_if("kind", {"rate", "counts", "od"}),
+            number<&DemandSettings::platoon_size>("platoon_size", "", {1, 1000},
+                                                  "mean number of vehicles in a platoon; the sizes are geometric")
+                .only_if("arrivals", {"platooned"}),
+            number<&DemandSettings::platoon_headway_s>("platoon_headway", "s", {0.1, 60}, "headway within a platoon")
+                .only_if("arrivals", {"platooned"}),
+            list<&DemandSettings::profile>("profile", profile_table, {0, 10'000},
+                                           "arrival rate over time; empty: constant")
+                .fallback("[]")
+                .only_if("kind", {"rate"}),
+            choice<&DemandSettings::profile_shape>(
+                "profile_shape", {"steps", "linear"},
+                "steps: the rate is constant until the next point of the profile; linear: it changes linearly")
+                .only_if("kind", {"rate"}),
+            text<&DemandSettings::counts>(
+                "counts", TextField::Rule::title,
+                "CSV file with the columns begin, end, approach, vehicles and, optionally, left, straight, right; "
+                "relative to the folder of the scenario")
+                .required()
+                .only_if("kind", {"counts"}),
+            text<&DemandSettings::od>("od", TextField::Rule::title,
+                                      "CSV file with the columns begin, end, origin, destination, vehicles; relative to "
+                                      "the folder of the scenario")
+                .required()
+                .only_if("kind", {"od"}),
+            number<&DemandSettings::scale>("scale", "%", {0.1, 10'000}, "factor of all arrivals")
+                .only_if("kind", {"rate", "counts", "od"}),
             number<&DemandSettings::cross_inflow_1ps>(
                 "cross_inflow", "veh/h", {0, 100'000},
                 "arrival rate per approach from south and north, while the others are saturated; "
@@ -229,7 +305,8 @@ const Table& demand_table() {
             choice<&DemandSettings::start>(
                 "start", {"empty", "queued"},
                 "initial state; queued: stopped vehicles fill the approaches from the stop line to the entry"),
-        });
+        },
+        check_demand);
     return table;
 }
 

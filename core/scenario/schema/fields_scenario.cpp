@@ -162,6 +162,9 @@ const Table& measure_table() {
                 "intersections: a movement starves, and the run fails, if the first vehicle of a queue stands for this "
                 "time, and for two cycles of its signal, although nothing blocks its way; the default is the time after "
                 "which SUMO teleports; 0 s: never"),
+            choice<&S::departure_delay>(
+                "departure_delay", {"off", "on"},
+                "report the departure delays: the times from the arrival of vehicles to their entry into the network"),
             number<&S::area_margin_m>("area_margin", "m", {0, 10'000},
                                       "grids and streets: distance from the outer intersections to the boundary of the "
                                       "measured area, on their approaches and exit lanes")

@@ -18,8 +18,8 @@ namespace stopline {
 namespace {
 
 constexpr double kBeforeStart_s = -1e9;
-// The gap that a new vehicle needs at inlets where vehicles arrive evenly spaced is computed from this headway. It does
-// not depend on the headway of the arrivals, so vehicles of a backlog can enter at shorter headways.
+// The gap that a new vehicle needs at inlets with a backlog (DemandPlan::forms_backlog()) is computed from this headway.
+// It does not depend on the headway of the arrivals, so vehicles of a backlog can enter at shorter headways.
 constexpr double kBacklogHeadway_s = 2.0;
 
 // Draws spacing policy and route of the next vehicle of an inlet, unless they have been drawn already.
@@ -27,6 +27,12 @@ void draw_next_vehicle(const Model& model, State& state, int number) {
     InletState& inlet = state.insertion.inlets[at(number)];
     if (inlet.next_policy >= 0) return;
     inlet.next_policy = model.demand.policy_of(number, inlet.entered);
+    const std::vector<int>& paths = model.demand.inlets[at(number)].paths;
+    inlet.next_path = paths.empty() ? -1 : paths[at(static_cast<int>(inlet.entered_arrivals))];
+    if (inlet.next_path >= 0) {
+        inlet.next_route = model.demand.path_routes[at(inlet.next_path)];
+        return;
+    }
     inlet.next_route = draw_route(model, state, number, inlet.entered, false);
 }
 
@@ -85,7 +91,7 @@ Entry entry_at(const Model& model, const State& state, int number, int policy) {
         const double position_m = rear_m - desired_gap_m(model, policy, speed_mps);
         return {position_m >= min_front_m, position_m, speed_mps};
     }
-    const double headway_s = model.demand.is_evenly_spaced(number) ? kBacklogHeadway_s : model.demand.entry_headway_s;
+    const double headway_s = model.demand.forms_backlog(number) ? kBacklogHeadway_s : model.demand.entry_headway_s;
     const double room_m = desired_gap_m(model, policy, speed_mps) + speed_mps * headway_s * 0.5;
     return {rear_m - min_front_m >= room_m, min_front_m, speed_mps};
 }
@@ -121,6 +127,7 @@ void insert_at_inlet(const Model& model, State& state, int number, const Entry& 
     inlet.next_policy = -1;
     VehicleArrays& v = state.vehicles;
     const std::size_t i = at(slot);
+    if (inlet.next_path >= 0) v.record[i].path = next_in_path(model.demand, inlet.next_path);
     const bool is_first = state.blocks[at(lane)].count == 1;
     if (model.demand.saturated && !is_first && v.speed_mps[i - 1] <= entry.speed_mps) {
         copy_longitudinal_state(model, v, i, i - 1);
@@ -165,8 +172,11 @@ double first_entry_offset(const Model& model, int number) {
 
 // Returns the earliest time in s at which the next vehicle of an inlet may enter.
 double next_entry_s(const Model& model, const State& state, int number) {
-    if (model.demand.is_saturated(number)) return kBeforeStart_s;
     const InletState& inlet = state.insertion.inlets[at(number)];
+    if (model.demand.has_arrival_times) {
+        return model.demand.inlets[at(number)].arrivals_s[static_cast<std::size_t>(inlet.entered_arrivals)];
+    }
+    if (model.demand.is_saturated(number)) return kBeforeStart_s;
     const double headway_s = model.demand.inlet_headway_s(number);
     if (!model.demand.is_evenly_spaced(number)) return inlet.last_entry_s + headway_s;
     return (static_cast<double>(inlet.entered) + first_entry_offset(model, number)) * headway_s;
@@ -197,7 +207,10 @@ void insert_initial_queues(const Model& model, State& state) {
 void insert_vehicles(const Model& model, State& state) {
     InsertionState& insertion = state.insertion;
     const auto is_exhausted = [&](int k) {
-        return insertion.inlets[at(k)].entered >= model.demand.inlets[at(k)].vehicles;
+        const DemandPlan::Inlet& planned = model.demand.inlets[at(k)];
+        const InletState& inlet = insertion.inlets[at(k)];
+        if (!model.demand.has_arrival_times) return inlet.entered >= planned.vehicles;
+        return static_cast<std::size_t>(inlet.entered_arrivals) >= planned.arrivals_s.size();
     };
     const auto is_link = [&](int k) { return !model.connections_to[at(model.demand.inlets[at(k)].lane)].empty(); };
     bool has_exhausted_link = false;
@@ -207,28 +220,74 @@ void insert_vehicles(const Model& model, State& state) {
             continue;
         }
         draw_next_vehicle(model, state, k);
-        if (model.time_s(state.tick + 1) < next_entry_s(model, state, k)) continue;
+        const double now_s = model.time_s(state.tick + 1);
+        const double due_s = next_entry_s(model, state, k);
+        if (now_s < due_s) continue;
         const Entry entry = entry_at(model, state, k, insertion.inlets[at(k)].next_policy);
-        if (entry.is_possible) insert_at_inlet(model, state, k, entry);
+        if (!entry.is_possible) continue;
+        insert_at_inlet(model, state, k, entry);
+        ++insertion.inlets[at(k)].entered_arrivals;
+        if (model.demand.forms_backlog(k)) insertion.inlets[at(k)].delays.add(now_s - due_s);
     }
     if (has_exhausted_link) {
         std::erase_if(insertion.open_inlets, [&](int k) { return is_exhausted(k) && is_link(k); });
     }
 }
 
+namespace {
+
+// Returns the arrival time of a vehicle that has not entered yet. `k`: number of the vehicle among these, from 0.
+double waiting_arrival_s(const Model& model, const State& state, int number, std::int64_t k) {
+    const InletState& inlet = state.insertion.inlets[at(number)];
+    if (model.demand.has_arrival_times) {
+        return model.demand.inlets[at(number)].arrivals_s[static_cast<std::size_t>(inlet.entered_arrivals + k)];
+    }
+    return (static_cast<double>(inlet.entered + k) + first_entry_offset(model, number)) *
+           model.demand.inlet_headway_s(number);
+}
+
+// Returns the number of vehicles of an inlet that have arrived but not entered.
+std::int64_t inlet_backlog(const Model& model, const State& state, int number) {
+    const DemandPlan::Inlet& planned = model.demand.inlets[at(number)];
+    const InletState& inlet = state.insertion.inlets[at(number)];
+    const double now_s = model.time_s(state.tick);
+    if (!model.demand.forms_backlog(number)) return 0;
+    if (model.demand.has_arrival_times) {
+        const auto due = std::upper_bound(planned.arrivals_s.begin(), planned.arrivals_s.end(), now_s);
+        return (due - planned.arrivals_s.begin()) - inlet.entered_arrivals;
+    }
+    const double arrived = now_s / model.demand.inlet_headway_s(number) + 1.0 - first_entry_offset(model, number);
+    const std::int64_t due = std::min(static_cast<std::int64_t>(arrived), planned.vehicles);
+    return std::max<std::int64_t>(due - inlet.entered, 0);
+}
+
+}  // namespace
+
 std::int64_t insertion_backlog(const Model& model, const State& state) {
     std::int64_t backlog = 0;
-    for (int k = 0; k < static_cast<int>(model.demand.inlets.size()); ++k) {
-        if (model.demand.is_saturated(k) || !model.demand.is_evenly_spaced(k)) continue;
-        const double arrived =
-            model.time_s(state.tick) / model.demand.inlet_headway_s(k) + 1.0 - first_entry_offset(model, k);
-        const std::int64_t due = std::min(static_cast<std::int64_t>(arrived), model.demand.inlets[at(k)].vehicles);
-        backlog += std::max<std::int64_t>(due - state.insertion.inlets[at(k)].entered, 0);
-    }
+    for (int k = 0; k < static_cast<int>(model.demand.inlets.size()); ++k) backlog += inlet_backlog(model, state, k);
     for (const std::vector<int>& trips : state.insertion.waiting_trips) {
         backlog += static_cast<std::int64_t>(trips.size());
     }
     return backlog;
+}
+
+DepartureDelays departure_delays(const Model& model, const State& state, int inlet) {
+    DepartureDelays delays = state.insertion.inlets[at(inlet)].delays;
+    const double now_s = model.time_s(state.tick);
+    const std::int64_t backlog = inlet_backlog(model, state, inlet);
+    for (std::int64_t k = 0; k < backlog; ++k) delays.add(now_s - waiting_arrival_s(model, state, inlet, k));
+    return delays;
+}
+
+DepartureDelays departure_delays(const Model& model, const State& state) {
+    DepartureDelays all;
+    for (int k = 0; k < static_cast<int>(model.demand.inlets.size()); ++k) all.add(departure_delays(model, state, k));
+    for (const DepartureDelays& delays : state.insertion.trip_delays) all.add(delays);
+    for (const std::vector<int>& trips : state.insertion.waiting_trips) {
+        for (const int trip : trips) all.add(model.time_s(state.tick) - model.demand.trips[at(trip)].depart_s);
+    }
+    return all;
 }
 
 }  // namespace stopline

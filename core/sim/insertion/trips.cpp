@@ -274,7 +274,9 @@ bool insert_trip(const Model& model, State& state, int number, const InsertionPo
     // Let decide_stop_lines() choose again which vehicle stops at the line. The new vehicle can be the first vehicle
     // that is able to stop.
     if (slot < block.last()) state.stop_lines.lines[at(point.lane)].stopping_vehicle = -1;
-    record_trip_crossing(state.records, state.vehicles, model.time_s(state.tick + 1), slot, model.trips_begin);
+    const double now_s = model.time_s(state.tick + 1);
+    record_trip_crossing(state.records, state.vehicles, now_s, slot, model.trips_begin);
+    state.insertion.trip_delays[at(trip.approach)].add(now_s - trip.depart_s);
     return true;
 }
 

@@ -82,7 +82,22 @@ Turn draw_turn_beyond(const Model& model, State& state, int route, bool chose_la
     return state.plan.turn_of(draw_route(model, state, inlet, k, chose_lane));
 }
 
+// Sets the turns of a vehicle on a path at the second and third intersection ahead. The exit lane of its route must have
+// an approach, so that the turns can be found from each of its lanes.
+void set_planned_turns(const Model& model, State& state, int slot) {
+    VehicleRecord& record = state.vehicles.record[at(slot)];
+    record.following_turn = Turn::none;
+    Turn& third_turn = state.vehicles.lane_memory[at(slot)].third_turn;
+    third_turn = Turn::none;
+    if (model.graph.lanes[at(state.plan.route(record.route).back())].approach < 0) return;
+    record.following_turn = state.plan.turn_of(model.demand.path_routes[at(record.path)]);
+    const int later = next_in_path(model.demand, record.path);
+    if (later >= 0) third_turn = state.plan.turn_of(model.demand.path_routes[at(later)]);
+}
+
 }  // namespace
+
+int next_in_path(const DemandPlan& demand, int index) { return demand.path_routes[at(index + 1)] < 0 ? -1 : index + 1; }
 
 void set_route_index(const Model& model, State& state, int slot, int index) {
     VehicleArrays& v = state.vehicles;
@@ -111,6 +126,11 @@ int draw_route(const Model& model, State& state, int inlet, std::int64_t k, bool
 void draw_later_turns(const Model& model, State& state, int lane, int slot, bool chose_lane) {
     VehicleRecord& record = state.vehicles.record[at(slot)];
     if (model.driver_of(state.vehicles.policy[at(slot)]).lane_change.look_ahead == "off") return;
+    if (record.path >= 0) {
+        set_planned_turns(model, state, slot);
+        update_preferred_lane(model, state, lane, slot);
+        return;
+    }
     if (record.following_turn == Turn::none) {
         record.following_turn = draw_turn_beyond(model, state, record.route, chose_lane);
     }
@@ -140,6 +160,14 @@ void choose_next_route(const Model& model, State& state, int lane, int slot) {
     const int inlet = state.insertion.inlet_of[at(lane)];
     if (inlet < 0) return;
     VehicleRecord& record = state.vehicles.record[at(slot)];
+    if (record.path >= 0) {
+        record.route = model.demand.path_routes[at(record.path)];
+        record.path = next_in_path(model.demand, record.path);
+        record.following_turn = std::exchange(state.vehicles.lane_memory[at(slot)].third_turn, Turn::none);
+        adopt_lane_route(model, state, lane, slot);
+        draw_later_turns(model, state, lane, slot, false);
+        return;
+    }
     const int approach = model.graph.lanes[at(lane)].approach;
     const int known_route =
         record.following_turn == Turn::none ? -1 : state.plan.route_with(approach, record.following_turn);

@@ -22,6 +22,9 @@ int draw_route(const Model& model, State& state, int inlet, std::int64_t k, bool
 // ahead. `chose_lane`: see draw_route().
 void draw_later_turns(const Model& model, State& state, int lane, int slot, bool chose_lane);
 
+// Returns the index in DemandPlan::path_routes of the route after the one at `index`; -1: the path ends there.
+int next_in_path(const DemandPlan& demand, int index);
+
 // Gives a vehicle that has reached the start of `lane` its next route. Does nothing if no route begins on this lane.
 void choose_next_route(const Model& model, State& state, int lane, int slot);
 

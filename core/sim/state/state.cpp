@@ -132,7 +132,10 @@ void size_detectors(const Model& model, DetectorState& detectors) {
 void size_insertion(const Model& model, InsertionState& insertion) {
     const std::size_t approaches = model.graph.approaches.size();
     insertion.drawn_turns.resize(approaches);
-    if (!model.demand.trips.empty()) insertion.waiting_trips.resize(approaches);
+    if (!model.demand.trips.empty()) {
+        insertion.waiting_trips.resize(approaches);
+        insertion.trip_delays.resize(approaches);
+    }
     insertion.inlets.resize(model.demand.inlets.size());
     insertion.inlet_of.assign(model.graph.lanes.size(), -1);
     for (std::size_t k = 0; k < model.demand.inlets.size(); ++k) {

@@ -36,6 +36,9 @@ struct alignas(64) VehicleRecord {
     int trip_edge = 0;  // index of the present edge in the trip; inside an intersection: index of the edge upstream
     int wait_since_tick = 0;  // tick at which the wait at yield_tick began
     int line_stop_tick = -1;  // tick at which the vehicle stopped at the stop line ahead for a stop sign; -1: not yet
+    // Index in DemandPlan::path_routes of the route that the vehicle takes after the present one. -1: that route is
+    // drawn, or given by a trip.
+    int path = -1;
 };
 static_assert(sizeof(VehicleRecord) == 64);
 
