@@ -140,8 +140,11 @@ TEST(PlatoonedArrivals, KeepRateSizeAndHeadway) {
     constexpr double kEnd_s = 400.0 * kHour_s;
     const std::vector<double> times_s = arrival_times(kPlatooned, constant_rate(kRate_1ps, kEnd_s), {3, 1});
     const auto n = static_cast<double>(times_s.size());
-    // The number of platoons in a time is Poisson-like; each brings platoon_size vehicles with that standard deviation.
-    const double deviation = std::sqrt(2.0 * kPlatooned.platoon_size * n);
+    // The variance of a count is its mean times the squared coefficient of variation of the headways.
+    const double gap_s = kPlatooned.platoon_size * (1.0 / kRate_1ps - kPlatooned.platoon_headway_s);
+    const double share = 1.0 / kPlatooned.platoon_size;
+    const double variance_s2 = share * (2.0 - share) * gap_s * gap_s;
+    const double deviation = std::sqrt(variance_s2 * kRate_1ps * kRate_1ps * n);
     EXPECT_NEAR(n, kRate_1ps * kEnd_s, 4.0 * deviation);
     EXPECT_LT(8.0 * deviation, 0.05 * n);  // the tolerance is small enough to notice a wrong rate
     double platoons = 1.0;

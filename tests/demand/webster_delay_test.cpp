@@ -24,7 +24,7 @@ constexpr double kTolerance = 0.10;
 // The longest queues fit on the approach. Behind the stop line the exit is long enough for all vehicles to reach the
 // speed limit, so that the delay includes their acceleration.
 Scenario light(const std::string& demand, const std::string& signal) {
-    return parse_scenario("{fidelity: meso, network: {approach: {length: 1500 m, exit_length: 700 m}}, signal: " + signal +
+    return parse_scenario("{fidelity: meso, meso: {base: table2, leader_speed_share: 100 %}, network: {approach: {length: 1500 m, exit_length: 700 m}}, signal: " + signal +
                               ", duration: 10000 s, populations: [CTG-Ref], demand: " + demand + "}",
                           "light.yaml");
 }
