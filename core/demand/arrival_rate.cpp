@@ -31,8 +31,8 @@ double ArrivalRate::highest_1ps() const {
 }
 
 double ArrivalRate::expected(double time_s) const {
-    const auto later = std::partition_point(pieces_.begin(), pieces_.end(),
-                                            [&](const Piece& piece) { return piece.from_s < time_s; });
+    const auto later =
+        std::partition_point(pieces_.begin(), pieces_.end(), [&](const Piece& piece) { return piece.from_s < time_s; });
     if (later == pieces_.begin()) return 0.0;
     const Piece& piece = *std::prev(later);
     return piece.expected_before + piece.expected_within(time_s);

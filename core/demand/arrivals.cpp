@@ -137,8 +137,7 @@ std::vector<double> counted_arrival_times(const ArrivalProcess& process, const C
     std::size_t platoon = 0;
     for (std::size_t k = 0; k < count; ++k) {
         if (platoon + 1 < leaders.size() && leaders[platoon + 1] <= k) ++platoon;
-        times_s[k] =
-            counted.from_s + places[platoon] * (length_s - headways_s) + static_cast<double>(k) * headway_s;
+        times_s[k] = counted.from_s + places[platoon] * (length_s - headways_s) + static_cast<double>(k) * headway_s;
     }
     return times_s;
 }

@@ -26,14 +26,14 @@ struct DemandSettings {
     std::string kind = "queue";
     int vehicles = 60;
     double inflow_1ps = 600.0 / 3600.0;
-    std::string arrivals = "even";       // process of arrivals: even | poisson | platooned
-    double platoon_size = 5.0;           // platooned: mean number of vehicles in a platoon
-    double platoon_headway_s = 2.0;      // platooned: headway within a platoon
-    double scale = 1.0;                  // factor of all arrivals
-    std::vector<ProfilePoint> profile;   // factor of `inflow_1ps` over time; empty: 1 at all times
-    std::string profile_shape = "steps"; // steps | linear: shape of the factor between two points
-    std::string counts;                  // file with detector counts
-    std::string od;                      // file with the origin-destination matrix
+    std::string arrivals = "even";                   // process of arrivals: even | poisson | platooned
+    double platoon_size = 5.0;                       // platooned: mean number of vehicles in a platoon
+    double platoon_headway_s = 2.0;                  // platooned: headway within a platoon
+    double scale = 1.0;                              // factor of all arrivals
+    std::vector<ProfilePoint> profile;               // factor of `inflow_1ps` over time; empty: 1 at all times
+    std::string profile_shape = "steps";             // steps | linear: shape of the factor between two points
+    std::string counts;                              // file with detector counts
+    std::string od;                                  // file with the origin-destination matrix
     std::shared_ptr<const TrafficTable> table = {};  // content of the file `counts` or `od`
     // Only for saturated demand: inflow of each leg in the south and north. 0: these legs are saturated, too.
     double cross_inflow_1ps = 0.0;

@@ -40,8 +40,8 @@ private:
 
     const LaneGraph& graph_;
     int from_approach_;
-    std::vector<double> time_s_;   // [approach] time from the start until its beginning
-    std::vector<int> previous_;    // [approach] last route of the way that leads there; -1: none
+    std::vector<double> time_s_;  // [approach] time from the start until its beginning
+    std::vector<int> previous_;   // [approach] last route of the way that leads there; -1: none
     std::vector<Exit> exits_;
 };
 

@@ -7,8 +7,8 @@
 
 #include "base/containers/index.h"
 #include "scenario/build_model.h"
-#include "sim/perception/look_ahead.h"
 #include "sim/insertion/insert_vehicles.h"
+#include "sim/perception/look_ahead.h"
 
 namespace stopline {
 

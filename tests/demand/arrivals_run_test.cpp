@@ -13,8 +13,9 @@
 namespace stopline {
 namespace {
 
-std::string grid_text(const std::string& demand, const std::string& lanes = "[{movements: straight+left}, "
-                                                                            "{movements: straight+right}]") {
+std::string grid_text(const std::string& demand, const std::string& lanes =
+                                                     "[{movements: straight+left}, "
+                                                     "{movements: straight+right}]") {
     return "{fidelity: meso, network: {kind: grid, intersection: {lanes: " + lanes +
            "}, grid: {columns: 3, rows: 2}}, signal: {first_green: 1 s, green: 20 s}, duration: 900 s, "
            "measure: {window: 600 s, departure_delay: on}, populations: [CTG-Ref, CDG], demand: " +
@@ -86,8 +87,8 @@ TEST(Arrivals, AreConserved) {
         const State& state = simulation.state();
         std::int64_t arrived = 0;
         for (const DemandPlan::Inlet& inlet : model.demand.inlets) {
-            arrived += std::upper_bound(inlet.arrivals_s.begin(), inlet.arrivals_s.end(), 500.0) -
-                       inlet.arrivals_s.begin();
+            arrived +=
+                std::upper_bound(inlet.arrivals_s.begin(), inlet.arrivals_s.end(), 500.0) - inlet.arrivals_s.begin();
         }
         const std::int64_t backlog = insertion_backlog(model, state);
         EXPECT_GT(backlog, 50) << "no vehicle waits";
@@ -154,7 +155,8 @@ TEST(Counts, GiveExactTotalsOfIntervalsAndTurns) {
             }
         }
         EXPECT_EQ(turns.size(), 3U);
-        EXPECT_EQ((turns[{"c0r0_west", 0}]), (std::map<Turn, int>{{Turn::left, 5}, {Turn::straight, 30}, {Turn::right, 5}}));
+        EXPECT_EQ((turns[{"c0r0_west", 0}]),
+                  (std::map<Turn, int>{{Turn::left, 5}, {Turn::straight, 30}, {Turn::right, 5}}));
         EXPECT_EQ((turns[{"c0r0_west", 1}]), (std::map<Turn, int>{{Turn::straight, 20}, {Turn::right, 11}}));
         EXPECT_EQ((turns[{"c2r1_north", 1}]), (std::map<Turn, int>{{Turn::left, 25}}));
     }
@@ -180,10 +182,10 @@ TEST(Counts, AreDrivenInBothFidelities) {
 }
 
 TEST(Counts, CarryRoundedVehiclesOverToTheNextInterval) {
-    const TrafficFile file("begin,end,approach,vehicles\n0,60,c0r0_west,1\n60,120,c0r0_west,1\n120,180,c0r0_west,1\n"
-                           "180,240,c0r0_west,1\n");
-    const Scenario scenario =
-        file.scenario(grid_text("{kind: counts, counts: traffic.csv, scale: 150 %}"));
+    const TrafficFile file(
+        "begin,end,approach,vehicles\n0,60,c0r0_west,1\n60,120,c0r0_west,1\n120,180,c0r0_west,1\n"
+        "180,240,c0r0_west,1\n");
+    const Scenario scenario = file.scenario(grid_text("{kind: counts, counts: traffic.csv, scale: 150 %}"));
     std::vector<double> times_s;
     for (const DemandPlan::Inlet& inlet : build_model(scenario, 0).demand.inlets) {
         times_s.insert(times_s.end(), inlet.arrivals_s.begin(), inlet.arrivals_s.end());
@@ -209,9 +211,8 @@ TEST(Matrix, BringsAllVehiclesToTheirDestinations) {
     ASSERT_EQ(expected.size(), 90U);
     const TrafficFile file(text);
     for (const char* const fidelity : {"meso", "full"}) {
-        const Scenario scenario =
-            file.scenario(grid_text("{kind: od, od: traffic.csv, arrivals: poisson}"),
-                          {std::string("fidelity=") + fidelity, "step=20 ms"});
+        const Scenario scenario = file.scenario(grid_text("{kind: od, od: traffic.csv, arrivals: poisson}"),
+                                                {std::string("fidelity=") + fidelity, "step=20 ms"});
         const Model model = build_model(scenario, 0);
         Simulation simulation(model);
         simulation.run_until(1500.0);

@@ -159,10 +159,11 @@ void compare(const std::vector<double>& opposing_veh_h, double to_s, int seeds) 
         const double error = std::sqrt(std::max(squares / seeds - mean * mean, 0.0) / (seeds - 1));
         const double expected = hcm_veh_h(opposing, gap.critical_s, gap.follow_up_s);
         const double standard = hcm_veh_h(opposing, 4.5, 2.5);
-        std::printf("opposing %4.0f veh/h: measured %4.0f +- %.0f veh/h, formula %4.0f (%+.1f %%), with 4.5 s and 2.5 s %4.0f "
-                    "(%+.1f %%)\n",
-                    opposing, mean, error, expected, 100.0 * (mean / expected - 1.0), standard,
-                    100.0 * (mean / standard - 1.0));
+        std::printf(
+            "opposing %4.0f veh/h: measured %4.0f +- %.0f veh/h, formula %4.0f (%+.1f %%), with 4.5 s and 2.5 s %4.0f "
+            "(%+.1f %%)\n",
+            opposing, mean, error, expected, 100.0 * (mean / expected - 1.0), standard,
+            100.0 * (mean / standard - 1.0));
         EXPECT_LT(error, 0.02 * expected) << "too few seeds";
         EXPECT_NEAR(mean, expected, 0.1 * expected) << "opposing flow " << opposing;
     }

@@ -24,9 +24,10 @@ constexpr double kTolerance = 0.10;
 // The longest queues fit on the approach. Behind the stop line the exit is long enough for all vehicles to reach the
 // speed limit, so that the delay includes their acceleration.
 Scenario light(const std::string& demand, const std::string& signal) {
-    return parse_scenario("{fidelity: meso, meso: {base: table2, leader_speed_share: 100 %}, network: {approach: {length: 1500 m, exit_length: 700 m}}, signal: " + signal +
-                              ", duration: 10000 s, populations: [CTG-Ref], demand: " + demand + "}",
-                          "light.yaml");
+    return parse_scenario(
+        "{fidelity: meso, meso: {base: table2, leader_speed_share: 100 %}, network: {approach: {length: 1500 m, exit_length: 700 m}}, signal: " +
+            signal + ", duration: 10000 s, populations: [CTG-Ref], demand: " + demand + "}",
+        "light.yaml");
 }
 
 const std::string kSignal = "{first_green: 27 s, green: 30 s, yellow: 3 s, cycle: 60 s}";
@@ -76,8 +77,8 @@ LightCapacity measured_capacity() {
         measured.capacity_1ps = static_cast<double>(passed) / (kCycles * kCycle_s);
     }
     {
-        const Model model = build_model(
-            light("{kind: saturated, start: queued}", "{first_green: 27 s, green: 90 s, cycle: 0 s}"), 0);
+        const Model model =
+            build_model(light("{kind: saturated, start: queued}", "{first_green: 27 s, green: 90 s, cycle: 0 s}"), 0);
         Simulation simulation(model);
         simulation.run_until(27.0 + 90.0);
         const std::vector<double> times_s = passages_s(model, simulation.state(), false);

@@ -19,13 +19,14 @@ std::string metric_of(const Scenario& scenario, const std::string& column) {
 }
 
 TEST(DepartureDelay, IsAMetricOfAllWaysOfRunning) {
-    for (const std::string network :
-         {"network: {approach: {length: 200 m}}, signal: {first_green: 30 s, green: 20 s, cycle: 60 s}, duration: 400 s, "
-          "measure: {green: [10 s]",
-          "network: {kind: intersection}, signal: {first_green: 1 s, green: 10 s}, duration: 400 s, measure: {warmup_cycles: "
-          "1",
-          "network: {kind: grid, grid: {columns: 2, rows: 1}}, signal: {first_green: 1 s, green: 10 s}, duration: 400 s, "
-          "measure: {window: 300 s"}) {
+    for (
+        const std::string network :
+        {"network: {approach: {length: 200 m}}, signal: {first_green: 30 s, green: 20 s, cycle: 60 s}, duration: 400 s, "
+         "measure: {green: [10 s]",
+         "network: {kind: intersection}, signal: {first_green: 1 s, green: 10 s}, duration: 400 s, measure: {warmup_cycles: "
+         "1",
+         "network: {kind: grid, grid: {columns: 2, rows: 1}}, signal: {first_green: 1 s, green: 10 s}, duration: 400 s, "
+         "measure: {window: 300 s"}) {
         const Scenario scenario = parse_scenario("{fidelity: meso, populations: [CTG-Ref], " + std::string(network) +
                                                      ", departure_delay: on}, demand: {kind: rate, inflow: 2400 veh/h, "
                                                      "arrivals: poisson}}",

@@ -35,7 +35,8 @@ TEST(TrafficFile, IsAcceptedWithoutProblems) {
 }
 
 TEST(TrafficFile, MustExist) {
-    const std::string error = error_of("network: {kind: grid}\nduration: 600 s\ndemand: {kind: counts, counts: no.csv}\n");
+    const std::string error =
+        error_of("network: {kind: grid}\nduration: 600 s\ndemand: {kind: counts, counts: no.csv}\n");
     EXPECT_TRUE(contains(error, "test.yaml:3"));
     EXPECT_TRUE(contains(error, "field 'demand.counts': "));
     EXPECT_TRUE(contains(error, "no.csv: the file does not exist or cannot be read"));
@@ -45,10 +46,12 @@ TEST(TrafficFile, MustExist) {
 TEST(TrafficFile, NamesPlaceColumnAndValue) {
     EXPECT_TRUE(contains(counts_error("0,60,c0r0_west,9,0,6,3\n60,12o,c0r0_west,0,0,0,0\n"),
                          "traffic.csv:3:4: end: value '12o' is not a time: a number from 0 to 1e+06"));
-    EXPECT_TRUE(contains(counts_error("0,60,c0r0_west,9.5,0,6,3\n"),
-                         "traffic.csv:2:16: vehicles: value '9.5' is not a number of vehicles: a whole number from 0 to"));
+    EXPECT_TRUE(
+        contains(counts_error("0,60,c0r0_west,9.5,0,6,3\n"),
+                 "traffic.csv:2:16: vehicles: value '9.5' is not a number of vehicles: a whole number from 0 to"));
     EXPECT_TRUE(contains(counts_error("0,60,c0r0_west,-1,0,6,3\n"), "value '-1' is not a number of vehicles"));
-    EXPECT_TRUE(contains(counts_error("60,60,c0r0_west,9,0,6,3\n"), "traffic.csv:2:4: end: value 60 must be above begin"));
+    EXPECT_TRUE(
+        contains(counts_error("60,60,c0r0_west,9,0,6,3\n"), "traffic.csv:2:4: end: value 60 must be above begin"));
     EXPECT_TRUE(contains(counts_error("0,60,c0r0_wset,9,0,6,3\n"),
                          "traffic.csv:2:6: approach: vehicles do not enter the network at 'c0r0_wset'; did you mean "
                          "'c0r0_west'?"));
@@ -95,15 +98,16 @@ TEST(TrafficFile, NeedsDestinationsThatCanBeReached) {
 
 TEST(TrafficFile, ReplacesTurnSharesAndInitialQueues) {
     const std::string rows = std::string(kMatrixHeader) + "0,60,c0r0_west,c1r0_east,9\n";
-    EXPECT_TRUE(contains(traffic_error("od", rows, ", right: 10 %"),
-                         "field 'demand.right': has no effect with kind od"));
+    EXPECT_TRUE(
+        contains(traffic_error("od", rows, ", right: 10 %"), "field 'demand.right': has no effect with kind od"));
     EXPECT_TRUE(contains(traffic_error("od", rows, ", start: queued"), "value 'queued' is not possible with kind od"));
 }
 
 TEST(TrafficFile, ChangesTheHashOfTheScenario) {
     const auto hash_with = [](const std::string& vehicles) {
         const TemporaryFolder folder;
-        std::ofstream(folder.path() / "traffic.csv") << "begin,end,approach,vehicles\n0,60,c0r0_west," + vehicles + "\n";
+        std::ofstream(folder.path() / "traffic.csv")
+            << "begin,end,approach,vehicles\n0,60,c0r0_west," + vehicles + "\n";
         return parse_scenario("{network: {kind: grid}, duration: 600 s, demand: {kind: counts, counts: traffic.csv}}",
                               "test.yaml", {}, folder.path())
             .hash;

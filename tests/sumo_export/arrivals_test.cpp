@@ -19,10 +19,11 @@ namespace {
 
 TEST(SumoInputs, VehiclesDepartAtTheirArrivalTimes) {
     const Model model = build_model(
-        parse_scenario("{fidelity: meso, network: {kind: intersection, intersection: {approach_length: 100 m}}, signal: "
-                       "{first_green: 1 s, green: 15 s}, populations: [CTG-Ref], demand: {kind: rate, inflow: 1200 "
-                       "veh/h, arrivals: poisson, profile: [{from: 0 min, inflow: 100 %}, {from: 2 min, inflow: 0 %}]}}",
-                       "test.yaml"),
+        parse_scenario(
+            "{fidelity: meso, network: {kind: intersection, intersection: {approach_length: 100 m}}, signal: "
+            "{first_green: 1 s, green: 15 s}, populations: [CTG-Ref], demand: {kind: rate, inflow: 1200 "
+            "veh/h, arrivals: poisson, profile: [{from: 0 min, inflow: 100 %}, {from: 2 min, inflow: 0 %}]}}",
+            "test.yaml"),
         0);
     const PlainNetwork network = plain_network(model.graph);
     const TemporaryFolder folder;

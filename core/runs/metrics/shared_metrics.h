@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "runs/metrics/metric.h"
 #include "base/nan.h"
+#include "runs/metrics/metric.h"
 #include "runs/v2v_results.h"
 #include "sim/state/events.h"
 #include "sim/state/insertion_state.h"

@@ -23,7 +23,8 @@ namespace stopline {
 
 namespace {
 
-constexpr std::array<Turn, 3> kTurnColumns{Turn::left, Turn::straight, Turn::right};  // in the order of TrafficRow::turns
+constexpr std::array<Turn, 3> kTurnColumns{Turn::left, Turn::straight,
+                                           Turn::right};  // in the order of TrafficRow::turns
 
 ArrivalProcess process_of(const DemandSettings& demand) {
     if (demand.arrivals == "poisson") return {ArrivalProcess::Kind::poisson, 1.0, 0.0};
@@ -39,7 +40,8 @@ ArrivalRate profiled_rate(const DemandSettings& demand, double rate_1ps, double 
     for (std::size_t k = 0; k < points.size() && points[k].from_s < end_s; ++k) {
         const bool is_last = k + 1 == points.size();
         const double begin_1ps = rate_1ps * points[k].inflow;
-        const double next_1ps = is_last || demand.profile_shape == "steps" ? begin_1ps : rate_1ps * points[k + 1].inflow;
+        const double next_1ps =
+            is_last || demand.profile_shape == "steps" ? begin_1ps : rate_1ps * points[k + 1].inflow;
         const double until_s = is_last ? end_s : std::min(points[k + 1].from_s, end_s);
         const double reached = is_last ? 1.0 : (until_s - points[k].from_s) / (points[k + 1].from_s - points[k].from_s);
         rate.append(until_s, begin_1ps, begin_1ps + reached * (next_1ps - begin_1ps));
@@ -143,7 +145,8 @@ private:
     }
 
     int add_path(const std::vector<int>& routes) {
-        const auto [known, is_new] = known_paths_.try_emplace(routes, static_cast<int>(model_.demand.path_routes.size()));
+        const auto [known, is_new] =
+            known_paths_.try_emplace(routes, static_cast<int>(model_.demand.path_routes.size()));
         if (is_new) {
             std::vector<int>& all = model_.demand.path_routes;
             all.insert(all.end(), routes.begin(), routes.end());
@@ -198,9 +201,8 @@ private:
         for (const int inlet : entries_.of(row.origin)) paths[inlet];
         for (const VehicleGroup& group : groups) {
             for (std::int64_t k = 0; k < group.vehicles; ++k) {
-                const auto least = std::min_element(group.inlets.begin(), group.inlets.end(), [&](int a, int b) {
-                    return paths[a].size() < paths[b].size();
-                });
+                const auto least = std::min_element(group.inlets.begin(), group.inlets.end(),
+                                                    [&](int a, int b) { return paths[a].size() < paths[b].size(); });
                 paths[*least].push_back(group.paths[static_cast<std::size_t>(least - group.inlets.begin())]);
             }
         }
@@ -213,10 +215,10 @@ private:
         const auto count = static_cast<std::int64_t>(paths.size());
         const double headways_s = static_cast<double>(count) * process_.platoon_headway_s;
         if (headways_s >= row.to_s - row.from_s) {
-            throw InputError(fmt::format("demand.platoon_headway: {:g} s is too long for the {} vehicles that arrive on "
-                                         "lane '{}' between {:g} s and {:g} s",
-                                         process_.platoon_headway_s, count,
-                                         model_.graph.lanes[at(inlet.lane)].name, row.from_s, row.to_s));
+            throw InputError(fmt::format(
+                "demand.platoon_headway: {:g} s is too long for the {} vehicles that arrive on "
+                "lane '{}' between {:g} s and {:g} s",
+                process_.platoon_headway_s, count, model_.graph.lanes[at(inlet.lane)].name, row.from_s, row.to_s));
         }
         const CountedArrivals counted{row.from_s, row.to_s, count, static_cast<std::int64_t>(inlet.arrivals_s.size())};
         const std::vector<double> times_s = counted_arrival_times(process_, counted, key);
@@ -244,8 +246,7 @@ void plan_rate(const Scenario& scenario, Model& model) {
         if (inlet.vehicles == 0) continue;
         const auto lanes = static_cast<double>(entries.of(entries.leg_of(k)).size());
         const ArrivalRate rate = profiled_rate(demand, demand.scale * demand.inflow_1ps / lanes, scenario.end_s());
-        if (process.kind == ArrivalProcess::Kind::platooned &&
-            rate.highest_1ps() * process.platoon_headway_s >= 1.0) {
+        if (process.kind == ArrivalProcess::Kind::platooned && rate.highest_1ps() * process.platoon_headway_s >= 1.0) {
             throw InputError(fmt::format(
                 "demand.platoon_headway: {:g} s is too long for up to {:.0f} veh/h per lane: at most {:.2f} s",
                 process.platoon_headway_s, 3600.0 * rate.highest_1ps(), 0.99 / rate.highest_1ps()));

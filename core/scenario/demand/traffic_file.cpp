@@ -98,7 +98,8 @@ private:
         for (std::size_t k = 0; k < csv_.columns.size(); ++k) {
             const std::string name = trimmed(csv_.columns[k]);
             if (std::find(known.begin(), known.end(), name) == known.end()) {
-                add_problem(1, "", fmt::format("unknown column '{}'{}", shortened(name), known_names_hint(name, known)));
+                add_problem(1, "",
+                            fmt::format("unknown column '{}'{}", shortened(name), known_names_hint(name, known)));
             } else if (!columns_.emplace(name, k).second) {
                 add_problem(1, "", fmt::format("column '{}' appears twice", name));
             }
@@ -122,8 +123,10 @@ private:
         const std::string text = cell(row, column);
         const std::optional<double> value = parse_number(text);
         if (value && *value >= 0.0 && *value <= kMaxTime_s) return *value;
-        add_problem(row, column, fmt::format("value '{}' is not a time: a number from 0 to {:g}, in seconds since the "
-                                             "start of the run", shortened(text), kMaxTime_s));
+        add_problem(row, column,
+                    fmt::format("value '{}' is not a time: a number from 0 to {:g}, in seconds since the "
+                                "start of the run",
+                                shortened(text), kMaxTime_s));
         return 0.0;
     }
 
@@ -133,8 +136,9 @@ private:
         if (value && *value >= 0.0 && *value <= static_cast<double>(kMaxVehicles) && *value == std::floor(*value)) {
             return static_cast<std::int64_t>(*value);
         }
-        add_problem(row, column, fmt::format("value '{}' is not a number of vehicles: a whole number from 0 to {}",
-                                             shortened(text), kMaxVehicles));
+        add_problem(row, column,
+                    fmt::format("value '{}' is not a number of vehicles: a whole number from 0 to {}", shortened(text),
+                                kMaxVehicles));
         return 0;
     }
 
@@ -143,8 +147,9 @@ private:
         constexpr std::size_t kListedMax = 12;
         std::string name = cell(row, column);
         if (std::find(known.begin(), known.end(), name) == known.end()) {
-            add_problem(row, column, fmt::format("vehicles do not {} the network at '{}'{}", role, shortened(name),
-                                                 known_names_hint(name, known, kListedMax)));
+            add_problem(row, column,
+                        fmt::format("vehicles do not {} the network at '{}'{}", role, shortened(name),
+                                    known_names_hint(name, known, kListedMax)));
         }
         return name;
     }
@@ -174,8 +179,8 @@ private:
         for (std::size_t turn = 0; turn < kTurnNames.size(); ++turn) {
             sum += (*row.turns)[turn];
             if ((*row.turns)[turn] == 0 || allows(row.origin, kTurnsOfColumns[turn])) continue;
-            add_problem(k, kTurnNames[turn], fmt::format("value {}: no lane of '{}' allows this movement",
-                                                         (*row.turns)[turn], row.origin));
+            add_problem(k, kTurnNames[turn],
+                        fmt::format("value {}: no lane of '{}' allows this movement", (*row.turns)[turn], row.origin));
         }
         if (sum == row.vehicles) return;
         add_problem(k, "vehicles", fmt::format("value {} is not left + straight + right = {}", row.vehicles, sum));
@@ -200,8 +205,7 @@ private:
             paths = paths_from_.try_emplace(row.origin, graph_, approach).first;
         }
         if (paths->second.to(row.destination)) return;
-        add_problem(k, "destination",
-                    fmt::format("no way leads from '{}' to '{}'", row.origin, row.destination));
+        add_problem(k, "destination", fmt::format("no way leads from '{}' to '{}'", row.origin, row.destination));
     }
 
     // Checks the intervals of each approach, or of each pair of origin and destination: they must follow each other
@@ -222,19 +226,23 @@ private:
             for (const std::size_t k : members) {
                 const TrafficRow& row = rows[k];
                 if (row.from_s < reached_s) {
-                    add_problem(lines_[k], "", fmt::format("the interval {:g} to {:g} s of {} overlaps another one",
-                                                           row.from_s, row.to_s, name));
+                    add_problem(lines_[k], "",
+                                fmt::format("the interval {:g} to {:g} s of {} overlaps another one", row.from_s,
+                                            row.to_s, name));
                 } else if (row.from_s > reached_s) {
-                    add_problem(lines_[k], "", fmt::format("the interval {:g} to {:g} s of {} is missing before this "
-                                                           "line (write a row with 0 vehicles if there are none)",
-                                                           reached_s, row.from_s, name));
+                    add_problem(lines_[k], "",
+                                fmt::format("the interval {:g} to {:g} s of {} is missing before this "
+                                            "line (write a row with 0 vehicles if there are none)",
+                                            reached_s, row.from_s, name));
                 }
                 reached_s = std::max(reached_s, row.to_s);
             }
             if (reached_s < last_s) {
-                add_problem(lines_[members.back()], "",
-                            fmt::format("the interval {:g} to {:g} s of {} is missing after this line (write a row with "
-                                        "0 vehicles if there are none)", reached_s, last_s, name));
+                add_problem(
+                    lines_[members.back()], "",
+                    fmt::format("the interval {:g} to {:g} s of {} is missing after this line (write a row with "
+                                "0 vehicles if there are none)",
+                                reached_s, last_s, name));
             }
         }
         check_shared_intervals(rows);
@@ -246,10 +254,11 @@ private:
         for (std::size_t k = 0; k < rows.size(); ++k) {
             const std::size_t other = first_row.try_emplace({rows[k].origin, rows[k].from_s}, k).first->second;
             if (rows[other].to_s == rows[k].to_s) continue;
-            add_problem(lines_[k], "", fmt::format("the interval {:g} to {:g} s of origin '{}' overlaps the interval "
-                                                   "{:g} to {:g} s of line {}: rows of one origin share their intervals",
-                                                   rows[k].from_s, rows[k].to_s, rows[k].origin, rows[other].from_s,
-                                                   rows[other].to_s, lines_[other]));
+            add_problem(lines_[k], "",
+                        fmt::format("the interval {:g} to {:g} s of origin '{}' overlaps the interval "
+                                    "{:g} to {:g} s of line {}: rows of one origin share their intervals",
+                                    rows[k].from_s, rows[k].to_s, rows[k].origin, rows[other].from_s, rows[other].to_s,
+                                    lines_[other]));
         }
     }
 

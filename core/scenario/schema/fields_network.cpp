@@ -261,9 +261,10 @@ const Table& demand_table() {
                 "relative to the folder of the scenario")
                 .required()
                 .only_if("kind", {"counts"}),
-            text<&DemandSettings::od>("od", TextField::Rule::title,
-                                      "CSV file with the columns begin, end, origin, destination, vehicles; relative to "
-                                      "the folder of the scenario")
+            text<&DemandSettings::od>(
+                "od", TextField::Rule::title,
+                "CSV file with the columns begin, end, origin, destination, vehicles; relative to "
+                "the folder of the scenario")
                 .required()
                 .only_if("kind", {"od"}),
             number<&DemandSettings::scale>("scale", "%", {0.1, 10'000}, "factor of all arrivals")
