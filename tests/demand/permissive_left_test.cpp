@@ -4,8 +4,9 @@
 //     s = q exp(-q tc / 3600) / (1 - exp(-q tf / 3600))
 //
 // tc is the critical gap, tf the follow-up time. Both are measured in the same model with evenly spaced opposing
-// vehicles: the critical gap is the shortest headway that a left-turning vehicle uses, and the follow-up time is the
-// headway of the queue without opposing vehicles.
+// vehicles. Evenly spaced vehicles also tell the shortest headway t_n in which n vehicles turn. With random arrivals the
+// capacity is then q times the sum of exp(-q t_n / 3600) over all n, and the formula above is the case t_n = tc + (n - 1)
+// tf.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -109,63 +110,96 @@ double shortest_headway_s(int vehicles, int opposing_lane) {
     return open_s;
 }
 
+constexpr std::size_t kVehicles = 12;  // in the longest headway that is measured
+
 struct GapAcceptance {
+    std::vector<double> shortest_s =
+        std::vector<double>(kVehicles, 0.0);  // [n - 1] for n vehicles; mean over the lanes
     double critical_s = 0.0;
     double follow_up_s = 0.0;
+
+    // Returns the capacity: n vehicles pass in all headways from shortest_s[n - 1] on. Further vehicles need the
+    // follow-up time each. If the shortest headways rise by the follow-up time throughout, this is hcm_veh_h().
+    double capacity_veh_h(double opposing_veh_h) const {
+        const double flow_1ps = opposing_veh_h / 3600.0;
+        double sum = 0.0;
+        for (const double headway_s : shortest_s) sum += std::exp(-flow_1ps * headway_s);
+        const double share = std::exp(-flow_1ps * follow_up_s);
+        return opposing_veh_h * (sum + std::exp(-flow_1ps * shortest_s.back()) * share / (1.0 - share));
+    }
 };
 
-// Fits critical gap and follow-up time to the shortest headways for 1, 2, ... vehicles: headway n is
-// critical_s + (n - 1) follow_up_s (the method of Siegloch, 1973).
-GapAcceptance measured_gap_acceptance(int opposing_lane) {
-    constexpr int kVehicles = 12;
+// Measures the shortest headways, and fits critical gap and follow-up time to them: headway n is critical_s + (n - 1)
+// follow_up_s (the method of Siegloch, 1973).
+GapAcceptance measured_gap_acceptance() {
+    GapAcceptance gap;
     double sum_n = 0.0;
     double sum_s = 0.0;
     double squares = 0.0;
     double products_s = 0.0;
-    for (int vehicles = 1; vehicles <= kVehicles; ++vehicles) {
-        const double n = vehicles - 1;
-        const double headway_s = shortest_headway_s(vehicles, opposing_lane);
+    for (std::size_t k = 0; k < kVehicles; ++k) {
+        const auto n = static_cast<double>(k);
+        for (int lane = 0; lane < kOpposingLanes; ++lane) {
+            gap.shortest_s[k] += shortest_headway_s(static_cast<int>(k) + 1, lane) / kOpposingLanes;
+        }
         sum_n += n;
-        sum_s += headway_s;
+        sum_s += gap.shortest_s[k];
         squares += n * n;
-        products_s += n * headway_s;
+        products_s += n * gap.shortest_s[k];
     }
-    const double slope_s = (products_s - sum_n * sum_s / kVehicles) / (squares - sum_n * sum_n / kVehicles);
-    return {(sum_s - slope_s * sum_n) / kVehicles, slope_s};
+    gap.follow_up_s = (products_s - sum_n * sum_s / kVehicles) / (squares - sum_n * sum_n / kVehicles);
+    gap.critical_s = (sum_s - gap.follow_up_s * sum_n) / kVehicles;
+    return gap;
 }
 
-void compare(const std::vector<double>& opposing_veh_h, double to_s, int seeds) {
-    GapAcceptance gap;  // mean over the lanes
-    for (int lane = 0; lane < kOpposingLanes; ++lane) {
-        const GapAcceptance of_lane = measured_gap_acceptance(lane);
-        std::printf("opposing lane %d: critical gap %.2f s, follow-up time %.2f s\n", lane, of_lane.critical_s,
-                    of_lane.follow_up_s);
-        gap.critical_s += of_lane.critical_s / kOpposingLanes;
-        gap.follow_up_s += of_lane.follow_up_s / kOpposingLanes;
+struct MeasuredFlow {
+    double mean_veh_h = 0.0;
+    double error_veh_h = 0.0;  // standard error
+};
+
+MeasuredFlow mean_flow(double opposing_veh_h, double to_s, int seeds) {
+    double sum = 0.0;
+    double squares = 0.0;
+    for (int seed = 1; seed <= seeds; ++seed) {
+        const Model model = left_turn_model(opposing_veh_h, to_s, static_cast<std::uint64_t>(seed));
+        const double flow = flow_veh_h(model, to_s);
+        sum += flow;
+        squares += flow * flow;
     }
+    const double mean = sum / seeds;
+    return {mean, std::sqrt(std::max(squares / seeds - mean * mean, 0.0) / (seeds - 1))};
+}
+
+// The second vehicle of a queue waits at the stop line while the first one waits inside the intersection. So the step
+// from one vehicle to two is longer than the later steps. The two parameters of hcm_veh_h() cannot express this: where
+// the opposing flow leaves room for hardly more than one vehicle in a headway, the fitted critical gap is too long.
+// Therefore hcm_veh_h() is compared up to kMaxForFit_veh_h only, and the sum over the shortest headways everywhere.
+void compare(const std::vector<double>& opposing_veh_h, double to_s, int seeds) {
+    constexpr double kMaxForFit_veh_h = 600.0;
+    constexpr double kTolerance = 0.1;
+    const GapAcceptance gap = measured_gap_acceptance();
+    std::printf(
+        "shortest headways for 1, 2, 3 vehicles: %.2f, %.2f, %.2f s; critical gap %.2f s, follow-up time %.2f s\n",
+        gap.shortest_s[0], gap.shortest_s[1], gap.shortest_s[2], gap.critical_s, gap.follow_up_s);
     const double unopposed = unopposed_veh_h();
     std::printf("opposing    0 veh/h: measured %4.0f veh/h, formula %4.0f, with 2.5 s 1440\n", unopposed,
                 3600.0 / gap.follow_up_s);
-    EXPECT_NEAR(unopposed, 3600.0 / gap.follow_up_s, 360.0 / gap.follow_up_s);
+    EXPECT_NEAR(unopposed, 3600.0 / gap.follow_up_s, kTolerance * unopposed);
     for (const double opposing : opposing_veh_h) {
-        double sum = 0.0;
-        double squares = 0.0;
-        for (int seed = 1; seed <= seeds; ++seed) {
-            const double flow = flow_veh_h(left_turn_model(opposing, to_s, static_cast<std::uint64_t>(seed)), to_s);
-            sum += flow;
-            squares += flow * flow;
-        }
-        const double mean = sum / seeds;
-        const double error = std::sqrt(std::max(squares / seeds - mean * mean, 0.0) / (seeds - 1));
-        const double expected = hcm_veh_h(opposing, gap.critical_s, gap.follow_up_s);
+        const MeasuredFlow flow = mean_flow(opposing, to_s, seeds);
+        const double mean = flow.mean_veh_h;
+        const double expected = gap.capacity_veh_h(opposing);
+        const double fitted = hcm_veh_h(opposing, gap.critical_s, gap.follow_up_s);
         const double standard = hcm_veh_h(opposing, 4.5, 2.5);
         std::printf(
-            "opposing %4.0f veh/h: measured %4.0f +- %.0f veh/h, formula %4.0f (%+.1f %%), with 4.5 s and 2.5 s %4.0f "
-            "(%+.1f %%)\n",
-            opposing, mean, error, expected, 100.0 * (mean / expected - 1.0), standard,
-            100.0 * (mean / standard - 1.0));
-        EXPECT_LT(error, 0.02 * expected) << "too few seeds";
-        EXPECT_NEAR(mean, expected, 0.1 * expected) << "opposing flow " << opposing;
+            "opposing %4.0f veh/h: measured %4.0f +- %.0f veh/h, sum over headways %4.0f (%+.1f %%), fitted formula "
+            "%4.0f (%+.1f %%), with 4.5 s and 2.5 s %4.0f (%+.1f %%)\n",
+            opposing, mean, flow.error_veh_h, expected, 100.0 * (mean / expected - 1.0), fitted,
+            100.0 * (mean / fitted - 1.0), standard, 100.0 * (mean / standard - 1.0));
+        EXPECT_LT(flow.error_veh_h, 0.02 * expected) << "too few seeds";
+        EXPECT_NEAR(mean, expected, kTolerance * expected) << "opposing flow " << opposing;
+        if (opposing > kMaxForFit_veh_h) continue;
+        EXPECT_NEAR(mean, fitted, kTolerance * fitted) << "opposing flow " << opposing;
     }
 }
 

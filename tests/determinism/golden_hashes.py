@@ -63,6 +63,9 @@ GRIDLOCK = {"duration": "900 s", "measure.window": "600 s", "signal.green": "20 
 QUICK_CYCLES = {"measure.cycles": "2", "step": "20 ms"}
 MIXED = {"populations": "[CTG-Ref, {name: MIX, pattern: alternating, components: [{policy: CDG, share: 50 %}, "
                         "{policy: CTG-Ref, share: 50 %}]}]", "measure.baseline": "CTG-Ref"}
+# Vehicles from the south and west turn, and must change lanes for it.
+MATRIX = {**SMALL_GRID, **FULL, "duration": "240 s", "measure.window": "120 s", **population("CTG-Ref"),
+          "demand": f"{{kind: od, od: {SOURCE}/tests/data/grid_matrix.csv, arrivals: platooned}}"}
 IMPORT_BASE = {"fidelity": "meso", "rules": "{teleport_cycles: 3}", **MIXED}
 TWO_STREETS = {"network.streets": f"{SOURCE}/tests/data/two_intersections.yaml", "duration": "600 s"}
 OWN_LAWS = {
@@ -150,6 +153,10 @@ RUNS = [
     imported("import_lights_full", {**sumo("lights_grid"), **FULL, "duration": "200 s", "measure.window": "120 s"}),
     imported("import_wrong_turn_lane", {**sumo("wrong_turn_lane"), "duration": "400 s", "measure.window": "300 s"}),
     imported("import_roundabout", {**sumo("roundabout"), "duration": "300 s", "measure.window": "200 s"}),
+    Run("morning", "morning", {"duration": "1500 s", "measure.window": "900 s"}, situation=("departure_delay_max_s",)),
+    Run("morning", "morning", {"duration": "1500 s", "measure.window": "900 s"}, threads=2),
+    Run("grid_matrix_full", "grid", MATRIX),
+    Run("grid_matrix_full", "grid", MATRIX, threads=2),
     Run("startup", "", program="stopline-startup"),
 ]
 

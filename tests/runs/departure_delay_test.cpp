@@ -33,7 +33,7 @@ TEST(DepartureDelay, IsAMetricOfAllWaysOfRunning) {
                                                  "test.yaml");
         EXPECT_GT(std::stod(metric_of(scenario, "departure_delay_mean_s")), 1.0) << network;
         EXPECT_GT(std::stod(metric_of(scenario, "departure_delay_max_s")), 10.0) << network;
-        EXPECT_GT(std::stod(metric_of(scenario, "waiting_vehicles")), 10.0) << network;
+        EXPECT_GT(std::stod(metric_of(scenario, "backlog")), 10.0) << network;
         Scenario off = scenario;
         off.measure.departure_delay = "off";
         EXPECT_EQ(metric_of(off, "departure_delay_mean_s"), "");

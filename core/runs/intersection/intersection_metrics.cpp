@@ -168,10 +168,13 @@ MetricList<MeasuredIntersection> junction_metrics() {
 
 const MetricList<MeasuredIntersection>& intersection_metrics() {
     static const MetricList<MeasuredIntersection> kMetrics = joined_lists<MeasuredIntersection>(
-        {zone_metrics(), discharge_metrics(), junction_metrics(),
+        {zone_metrics(),
+         discharge_metrics(),
+         junction_metrics(),
          count_metrics<MeasuredIntersection>(
              {"overlaps", "conflicts", "red_entries", "forced_red_entries", "lost_vehicles", "deadlocks"}),
-         departure_metrics<MeasuredIntersection>()});
+         departure_metrics<MeasuredIntersection>(),
+         {backlog_metric<MeasuredIntersection>()}});
     return kMetrics;
 }
 

@@ -129,6 +129,8 @@ MetricList<Run> count_metrics(std::initializer_list<std::string_view> in_summary
     return metrics;
 }
 
+inline bool asks_for_departure_delay(const Scenario& scenario) { return scenario.measure.departure_delay == "on"; }
+
 // Returns the metrics of the time from the arrival of vehicles to their entry. Only scenarios with
 // `measure.departure_delay: on` have them.
 template <class Run>
@@ -155,16 +157,20 @@ MetricList<Run> departure_metrics() {
          .unit = "veh",
          .extent = "run",
          .meaning = "vehicles that arrived, with or without room to enter",
-         .value = [](const Run& run) { return run.counts().delays.vehicles; }},
-        {.column = "waiting_vehicles",
-         .unit = "veh",
-         .extent = "end of the run",
-         .meaning = "vehicles that arrived but found no room to enter",
-         .value = [](const Run& run) { return run.counts().backlog; }}};
-    for (Metric<Run>& metric : metrics) {
-        metric.asked_for = [](const Scenario& scenario) { return scenario.measure.departure_delay == "on"; };
-    }
+         .value = [](const Run& run) { return run.counts().delays.vehicles; }}};
+    for (Metric<Run>& metric : metrics) metric.asked_for = asks_for_departure_delay;
     return metrics;
+}
+
+// Returns the backlog, for ways of running that report it only with the departure delays.
+template <class Run>
+Metric<Run> backlog_metric() {
+    return {.column = "backlog",
+            .unit = "veh",
+            .extent = "end of the run",
+            .meaning = "vehicles that arrived but found no room to enter",
+            .value = [](const Run& run) { return run.counts().backlog; },
+            .asked_for = asks_for_departure_delay};
 }
 
 // Returns the number of starving movements. `Run` has the member starvations().

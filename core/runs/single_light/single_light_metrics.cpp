@@ -225,11 +225,17 @@ MetricList<MeasuredLight> stability_metrics() {
 
 const MetricList<MeasuredLight>& single_light_metrics() {
     static const MetricList<MeasuredLight> kMetrics = joined_lists<MeasuredLight>(
-        {passage_metrics(), numbered_green_metrics(green_metrics()), emptying_metrics(), steady_state_metrics(),
-         stop_line_metrics(), queue_metrics(), stability_metrics(),
+        {passage_metrics(),
+         numbered_green_metrics(green_metrics()),
+         emptying_metrics(),
+         steady_state_metrics(),
+         stop_line_metrics(),
+         queue_metrics(),
+         stability_metrics(),
          count_metrics<MeasuredLight>({"vehicles_entered", "vehicles_exited", "overlaps", "red_entries",
                                        "forced_red_entries", "lost_vehicles", "state_hash"}),
-         departure_metrics<MeasuredLight>()});
+         departure_metrics<MeasuredLight>(),
+         {backlog_metric<MeasuredLight>()}});
     return kMetrics;
 }
 
