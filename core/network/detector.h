@@ -20,6 +20,7 @@ struct Detector {
     int zone = -1;             // index of the zone; -1: the detector belongs to no zone
     bool leaves_zone = false;  // true: vehicles leave the zone at this detector; false: they enter the zone
     int loop = -1;             // index in Model::loop_names; -1: no induction loop
+    double length_m = 0.0;     // length of the detection zone, which begins at the position
 };
 
 }  // namespace stopline

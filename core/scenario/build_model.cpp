@@ -53,11 +53,16 @@ void add_loops(const Scenario& scenario, Model& model) {
     }
 }
 
-// Adds the detectors upstream of a stop line that the controller of the signal asks for.
+// Adds the detectors before a stop line that the signal has in its plan or that its controller asks for.
 void add_signal_detectors(int lane, Model& model) {
     const Lane& road = model.graph.lanes[at(lane)];
     const SignalPlan& plan = model.signals.plan_of(road.signal_group);
-    if (plan.controller->detectors_m == nullptr) return;
+    for (const LaneDetector& detector : plan.lane_detectors) {
+        if (detector.lane != lane) continue;
+        model.detectors.push_back({lane, road.stop_line_m - detector.to_line_m, Detector::Kind::signal});
+        model.detectors.back().length_m = detector.length_m;
+    }
+    if (plan.controller->detectors_m == nullptr || !plan.lane_detectors.empty()) return;
     for (const double to_line_m : plan.controller->detectors_m(plan.settings)) {
         const double position_m = road.stop_line_m - to_line_m;
         if (position_m > 0.0) model.detectors.push_back({lane, position_m, Detector::Kind::signal});

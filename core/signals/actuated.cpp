@@ -3,31 +3,20 @@
 // phase has been occupied for the gap, or its maximum has passed since the first call of another phase. Without a call
 // of another phase, the green goes on. Yellow and all-red times are constant.
 //
-// Each approach lane has two detectors. One of them is so near to the stop line that the first vehicle of a queue
-// covers it. The other one lies upstream. A lane has a call while a vehicle covers the first detector, and from the
-// tick at which a vehicle passes the second one at red. The call of a lane with several movements belongs to the phases
-// that give green to all of them. If there are none, it belongs to the phases that give green to one of them.
+// Each approach lane has two detectors (signals/actuation.h). A lane has a call while a vehicle covers the one at the
+// stop line, and from the tick at which a vehicle passes the other one at red. The call of a lane with several movements
+// belongs to the phases that give green to all of them. If there are none, it belongs to the phases that give green to
+// one of them.
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdlib>
 
 #include <fmt/format.h>
 
+#include "signals/actuation.h"
 #include "signals/signal_controller.h"
 
 namespace stopline {
 
 namespace {
-
-// Indices in SignalPlan::values.
-constexpr std::size_t kStopDetector = 0;
-constexpr std::size_t kAdvanceDetector = 1;
-constexpr std::array kActuatedParameters{
-    SignalParameter{"stop_detector", "m", 0, 50, "3 m",
-                    "distance from the stop line of the detector that a queued vehicle covers"},
-    SignalParameter{"advance_detector", "m", 0, 500, "40 m",
-                    "distance from the stop line of the detector that extends green upstream; 0 m: none"}};
 
 enum class Interval : std::uint8_t { initial_red, green, yellow, all_red };
 
@@ -132,8 +121,8 @@ private:
 
     bool gap_has_passed(const SignalPhase& own) const {
         const auto extends = [&](const SignalDetector& detector) {
-            const bool is_used = is_at(detector, kStopDetector) || is_at(detector, kAdvanceDetector);
-            return is_used && (detector.groups & own.green_groups) != 0 && detector.last_occupied_tick >= 0 &&
+            const bool is_used = is_at(view_.plan(), detector, kStopDetector) || is_at(view_.plan(), detector, kAdvanceDetector);
+            return is_used && extends_phase(view_.plan(), detector, present()) && detector.last_occupied_tick >= 0 &&
                    view_.tick() - detector.last_occupied_tick < own.gap_ticks;
         };
         const auto detectors = view_.detectors();
@@ -226,15 +215,8 @@ private:
             last_end = std::max(last_end, memory_[kGreenEnds + static_cast<std::size_t>(group)]);
         }
         if ((detector.groups & called.green_groups & ~green_groups) == 0) return false;
-        if (is_at(detector, kStopDetector)) return detector.is_occupied;
-        return is_at(detector, kAdvanceDetector) && green_groups == 0 && detector.last_crossing_tick > last_end;
-    }
-
-    bool is_at(const SignalDetector& detector, std::size_t parameter) const {
-        constexpr double kTolerance_m = 0.01;
-        const double to_line_m = view_.plan().values[parameter];
-        if (parameter == kAdvanceDetector && to_line_m <= 0.0) return false;
-        return std::abs(detector.to_line_m - to_line_m) < kTolerance_m;
+        if (is_at(view_.plan(), detector, kStopDetector)) return detector.is_occupied;
+        return is_at(view_.plan(), detector, kAdvanceDetector) && green_groups == 0 && detector.last_crossing_tick > last_end;
     }
 
     SignalView& view_;
@@ -252,15 +234,6 @@ std::int64_t start_actuated(SignalView& view) {
 NominalCycle actuated_cycle(const SignalSettings& settings, int /*groups*/) {
     if (settings.has_phases()) return phase_cycle(settings);
     return {settings.intersection_cycle_s(), settings.green_s};  // the settings are refused, see actuated_problems()
-}
-
-std::vector<double> actuated_detectors_m(const SignalSettings& settings) {
-    std::vector<double> to_line_m;
-    for (const SignalParameter& parameter : kActuatedParameters) {
-        if (const double value_m = signal_parameter(settings, parameter.name); value_m > 0.0)
-            to_line_m.push_back(value_m);
-    }
-    return to_line_m;
 }
 
 std::vector<SignalProblem> actuated_problems(const SignalSettings& settings, int /*groups*/) {
@@ -288,7 +261,7 @@ extern const SignalController kActuatedController{
     .name = "actuated",
     .meaning =
         "phases end at gaps in the traffic, between their minimum and maximum green, and are skipped without a call",
-    .parameters = kActuatedParameters,
+    .parameters = kActuationParameters,
     .nominal_cycle = actuated_cycle,
     .init = start_actuated,
     .step = [](SignalView& view) { return ActuatedSignal(view).step(); },
@@ -298,7 +271,7 @@ extern const SignalController kActuatedController{
             return ActuatedSignal(own).next_green(group, after_tick);
         },
     .memory_size = [](const SignalPlan& plan) { return kGreenEnds + plan.groups.size(); },
-    .detectors_m = actuated_detectors_m,
+    .detectors_m = actuation_detectors_m,
     .problems = actuated_problems,
     .runs_phases = true};
 

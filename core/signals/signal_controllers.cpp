@@ -18,6 +18,7 @@ static std::vector<const SignalController*>& controllers() {
         // NOLINTBEGIN(readability-identifier-naming): the macro declares constants of the namespace inside a function.
         STOPLINE_DEFINED_ELSEWHERE(SignalController, kFixedTimeController),
         STOPLINE_DEFINED_ELSEWHERE(SignalController, kActuatedController),
+        STOPLINE_DEFINED_ELSEWHERE(SignalController, kDualRingController),
         // NOLINTEND(readability-identifier-naming)
     };
     return all;
@@ -99,6 +100,14 @@ SignalPlan fixed_time_plan(std::vector<int> groups, std::vector<GroupProgramme> 
 SignalPlan make_phase_signal_plan(const SignalSettings& settings, int first_group,
                                   std::span<const std::string> movements, double step_s, std::int64_t end_tick) {
     PhasePlan phases = make_phase_plan(settings, movements, step_s);
+    if (find_signal_controller(settings.controller).runs_rings) {
+        phases.rings = make_ring_plan(settings, movements, step_s);
+        SignalPlan plan =
+            make_signal_plan(settings, first_group, make_ring_programmes(phases, static_cast<int>(movements.size())),
+                             step_s);
+        plan.phases = std::move(phases);
+        return plan;
+    }
     PhaseTimelines timelines = make_phase_timelines(phases, static_cast<int>(movements.size()),
                                                     to_ticks(settings.first_green_s, step_s), end_tick);
     SignalPlan plan = make_signal_plan(settings, first_group, std::move(timelines.programmes), step_s);

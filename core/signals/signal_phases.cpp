@@ -98,13 +98,21 @@ bool has_green(const PhaseSettings& phase, const std::string& movement) {
     return contains(phase.protected_movements, movement) || contains(phase.permissive_movements, movement);
 }
 
-std::vector<int> groups_with_equal_lights(const SignalSettings& settings, std::span<const std::string> movements) {
+bool has_protected_green(const PhaseSettings& phase, const std::string& movement) {
+    return contains(phase.protected_movements, movement);
+}
+
+std::vector<int> groups_with_equal_lights(const SignalSettings& settings, std::span<const std::string> movements,
+                                          bool by_protection) {
     std::map<std::vector<bool>, int> group_of;  // key: green in each phase
     std::vector<int> groups;
     for (const std::string& movement : movements) {
         std::vector<bool> greens;
         for (const ProgrammeSettings& programme : phase_programmes(settings)) {
-            for (const PhaseSettings& phase : programme.phases) greens.push_back(has_green(phase, movement));
+            for (const PhaseSettings& phase : programme.phases) {
+                greens.push_back(has_green(phase, movement));
+                if (by_protection) greens.push_back(has_protected_green(phase, movement));
+            }
         }
         groups.push_back(group_of.try_emplace(greens, static_cast<int>(group_of.size())).first->second);
     }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "signals/programme.h"
+#include "signals/ring_plan.h"
 #include "signals/signal_settings.h"
 #include "signals/timeline.h"
 
@@ -49,6 +50,7 @@ struct PhasePlan {
     std::vector<PhaseProgramme> programmes;  // in the order of from_tick
     std::int64_t clock_ticks = 0;            // time of day at tick 0
     std::int64_t day_ticks = 0;
+    RingPlan rings;  // for controllers with rings, whose phases do not run one after the other
 
     bool empty() const { return phases.empty(); }
     // Returns the index of the programme that is in force at a tick of the run.
@@ -87,11 +89,13 @@ double first_cycle_s(const SignalSettings& settings);
 // Returns the middle of the second green of a cycle, from the start of the cycle, s. The settings need not have phases.
 double second_green_middle_s(const SignalSettings& settings);
 
-// Returns true if a phase gives green to the movement with this name.
+// Returns true if a phase gives green, or protected green, to the movement with this name.
+bool has_protected_green(const PhaseSettings& phase, const std::string& movement);
 bool has_green(const PhaseSettings& phase, const std::string& movement);
 // Returns the group of each movement within its signal, counted from 0. Movements that have green in the same phases of
-// all programmes share a group.
-std::vector<int> groups_with_equal_lights(const SignalSettings& settings, std::span<const std::string> movements);
+// all programmes share a group. `by_protection`: the green must also be protected in the same phases.
+std::vector<int> groups_with_equal_lights(const SignalSettings& settings, std::span<const std::string> movements,
+                                          bool by_protection);
 
 // Converts the settings. `movements`: the name of a movement of each group of the signal.
 PhasePlan make_phase_plan(const SignalSettings& settings, std::span<const std::string> movements, double step_s);

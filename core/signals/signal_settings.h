@@ -25,7 +25,14 @@ struct PhaseSettings {
     double gap_s = 3.0;        // green ends when no detector of the phase has been occupied for this time
     // minimum: the phase is served in each cycle. maximum: it is served in each cycle for its maximum green.
     std::string recall = "off";  // off | minimum | maximum
+    // For controllers with rings (signals/ring_plan.h):
+    int ring = 1;
+    int barrier = 1;  // phases of both rings with the same number can run together
+    // on: served without a call if the other ring has a call for the same barrier number.
+    std::string dual_entry = "off";   // off | on
+    std::string coordinated = "off";  // off | on
 
+    bool is_coordinated() const { return coordinated == "on"; }
     double longest_green_s() const { return max_green_s > 0.0 ? max_green_s : green_s; }
     double total_s() const { return green_s + yellow_s + all_red_s; }
 };
@@ -50,7 +57,9 @@ struct SignalSettings {
     double all_red_s = 5.0;
     double cross_green_s = 0.0;  // green of the streets from south to north; 0: the same as green_s
     double offset_s = 0.0;       // grid: delay of the green, per column to the east and per row to the north
-    double cycle_s = 0.0;        // only for the network kind `approach`; 0: one green, then red until the end
+    // Network kind `approach`: 0: one green, then red until the end. Controllers with rings: background cycle of the
+    // coordination; 0: no coordination. Other signals have no such setting.
+    double cycle_s = 0.0;
 
     // The phases of each intersection. They replace green_s, yellow_s, all_red_s and cross_green_s. Either a single
     // programme (`phases`) or several by time of day (`programmes`), or neither.

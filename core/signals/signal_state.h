@@ -18,10 +18,12 @@ struct SignalDetector {
     int group = 0;             // group of the signal that controls the lane
     std::uint64_t groups = 0;  // all groups that control movements of the lane; bit k: group k of the signal
     double to_line_m = 0.0;    // distance from the detector to the stop line
-    bool is_occupied = false;  // a vehicle covers the detector
+    bool is_occupied = false;  // a vehicle covers a part of the detector
     // Tick at the end of the step in which a front passed the detector last; -1: never.
     std::int64_t last_crossing_tick = -1;
     std::int64_t last_occupied_tick = -1;  // last tick at which a vehicle covered the detector; -1: never
+    // Only for detectors of SignalPlan::lane_detectors: the phases that this detector calls and extends; bit k: phase k.
+    std::uint64_t phases = 0;
 };
 
 // State::signals. Ticks count from the start of the run. A light that began before the run has a start tick below 0.

@@ -1,4 +1,5 @@
-// A signal with the controller `actuated` and without vehicles: tests set its detectors.
+// A signal without vehicles whose controller reacts to traffic: tests set its detectors. Without another name in the
+// settings, the controller is `actuated`.
 #pragma once
 
 #include <cmath>
@@ -20,7 +21,7 @@ class Junction {
 public:
     Junction(SignalSettings settings, const std::vector<std::string>& movements,
              std::vector<std::uint64_t> lanes = {}) {
-        settings.controller = "actuated";
+        if (settings.controller == "fixed_time") settings.controller = "actuated";
         const std::vector<SignalParameter> parameters = signal_parameters();
         for (std::size_t k = 0; k < parameters.size(); ++k) {
             if (std::string(parameters[k].name) == "stop_detector") settings.parameters[k] = kStopDetector_m;
@@ -48,6 +49,7 @@ public:
     // The two detectors of a lane that the controller uses.
     SignalDetector& stop_detector(std::size_t lane) { return state_.detectors[0][3 * lane + 1]; }
     SignalDetector& advance_detector(std::size_t lane) { return state_.detectors[0][3 * lane + 2]; }
+    const std::vector<SignalDetector>& detectors() const { return state_.detectors[0]; }
     std::size_t lanes() const { return state_.detectors[0].size() / 3; }
 
     // Goes on by one tick. The test has set the detectors of the present tick.
@@ -68,7 +70,8 @@ public:
     std::int64_t tick() const { return tick_; }
     const SignalState& state() const { return state_; }
     const PhasePlan& phases() const { return plan_.phases; }
-    int phase() const { return state_.phase[0]; }
+    int phase() const { return state_.phase[0]; }  // controllers with rings: index of a pair
+    Light light(std::size_t group) const { return state_.lights[group]; }
 
 private:
     SignalPlan plan_;

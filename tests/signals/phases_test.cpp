@@ -118,9 +118,9 @@ TEST(Phases, MovementsWithEqualLightsShareAGroup) {
     SignalSettings settings = four_phases();
     settings.phases[1].permissive_movements.emplace_back("west_right");
     const std::vector<std::string> movements{"west_straight", "west_right", "west_left", "south_straight"};
-    EXPECT_EQ(groups_with_equal_lights(settings, movements), (std::vector<int>{0, 0, 1, 2}));
+    EXPECT_EQ(groups_with_equal_lights(settings, movements, false), (std::vector<int>{0, 0, 1, 2}));
     settings.phases[3].permissive_movements.emplace_back("west_right");
-    EXPECT_EQ(groups_with_equal_lights(settings, movements), (std::vector<int>{0, 1, 2, 3}));
+    EXPECT_EQ(groups_with_equal_lights(settings, movements, false), (std::vector<int>{0, 1, 2, 3}));
 }
 
 // The morning programme comes into force at 06:30, that is 100 s after the start of the run. It begins at the end of

@@ -45,7 +45,10 @@ std::vector<Row<NetworkSettings>> grid_fields() {
 
 void add_grid_signals(const Scenario& scenario, Model& model) {
     const bool has_phases = scenario.signal.has_phases();
-    const double cycle_s = has_phases ? first_cycle_s(scenario.signal) : scenario.signal.intersection_cycle_s();
+    const bool has_rings = find_signal_controller(scenario.signal.controller).runs_rings;
+    const double cycle_s = has_rings    ? scenario.nominal_cycle().cycle_s
+                           : has_phases ? first_cycle_s(scenario.signal)
+                                        : scenario.signal.intersection_cycle_s();
     std::vector<double> first_green_s;
     for (const GridPosition& place : grid_positions(scenario.network.grid)) {
         // Whole cycles are removed from the offset, so that the initial red is as short as possible.

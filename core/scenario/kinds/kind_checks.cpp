@@ -47,7 +47,7 @@ void check_green_times(const Scenario& scenario, Checker& check) {
 
 void refuse_cycle(const Scenario& scenario, Checker& check) {
     const SignalSettings& signal = scenario.signal;
-    if (signal.cycle_s == 0.0) return;
+    if (signal.cycle_s == 0.0 || find_signal_controller(signal.controller).runs_rings) return;
     const std::string times = signal.has_phases() ? "the phases, " : "green, cross_green, yellow and all_red, ";
     check.error("signal.cycle", "must be left out here: it follows from " + times +
                                     short_text(scenario.nominal_cycle().cycle_s, unit("s")));

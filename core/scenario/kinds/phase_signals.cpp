@@ -52,8 +52,10 @@ public:
             check_times(phases[k], phase);
             const std::vector<NamedMovement> movements = movements_of(phases[k], phase);
             for (const NamedMovement& movement : movements) served.push_back(movement.name);
-            check_pairs(movements, k);
+            if (!runs_rings()) check_pairs(movements, fmt::format("phase {}", k + 1));
+            movements_.push_back(movements);
         }
+        if (runs_rings()) check_ring_pairs();
         std::vector<std::string> missing;
         for (const std::string& name : names_) {
             if (std::find(served.begin(), served.end(), name) == served.end()) missing.push_back(name);
@@ -71,11 +73,20 @@ private:
         check_whole_steps(scenario_, field + ".min_green", phase.min_green_s, check_);
         check_whole_steps(scenario_, field + ".max_green", phase.max_green_s, check_);
         check_whole_steps(scenario_, field + ".gap", phase.gap_s, check_);
+        if (!runs_rings()) refuse_ring_fields(field);
         if (!find_signal_controller(scenario_.signal.controller).follows_programme) return;
         for (const char* const name : {".min_green", ".max_green", ".gap", ".recall"}) {
             if (!check_.given(field + name)) continue;
             check_.error(field + name, "has no effect with the controller " + scenario_.signal.controller +
                                            ": its green is constant");
+        }
+    }
+
+    void refuse_ring_fields(const std::string& field) {
+        for (const char* const name : {".ring", ".barrier", ".dual_entry", ".coordinated"}) {
+            if (!check_.given(field + name)) continue;
+            check_.error(field + name, "has no effect with the controller " + scenario_.signal.controller +
+                                           ": its phases run one after the other");
         }
     }
 
@@ -100,32 +111,70 @@ private:
         return movements;
     }
 
-    // Reports two movements of a phase that conflict, if neither yields to the other.
-    void check_pairs(const std::vector<NamedMovement>& movements, std::size_t phase) {
+    // Checks the movements that have green together in two rings. A phase whose movements conflict is not checked together
+    // with other phases.
+    void check_ring_pairs() {
+        std::vector<bool> has_conflict(movements_.size());
+        for (const RingPair& pair : make_ring_plan(scenario_.signal, {}, scenario_.tick_s()).pairs) {
+            std::vector<NamedMovement> movements;
+            bool is_known = false;
+            for (const int phase : pair.phase) {
+                if (phase < 0) continue;
+                is_known = is_known || (pair.phase[0] >= 0 && pair.phase[1] >= 0 && has_conflict[at(phase)]);
+                for (const NamedMovement& movement : movements_[at(phase)]) add_movement(movement, movements);
+            }
+            if (is_known || !check_pairs(movements, pair_text(pair))) continue;
+            for (const int phase : pair.phase) {
+                if (phase >= 0) has_conflict[at(phase)] = true;
+            }
+        }
+    }
+
+    // Adds a movement. It stays protected if one of its phases protects it.
+    static void add_movement(const NamedMovement& movement, std::vector<NamedMovement>& movements) {
+        const auto known = std::find_if(movements.begin(), movements.end(),
+                                        [&](const NamedMovement& one) { return one.name == movement.name; });
+        if (known == movements.end()) {
+            movements.push_back(movement);
+        } else if (movement.is_protected) {
+            *known = movement;
+        }
+    }
+
+    // Reports two movements that conflict in the same phase or phases, if neither yields to the other. Returns true if
+    // there are such movements.
+    bool check_pairs(const std::vector<NamedMovement>& movements, const std::string& phases) {
+        bool has_conflict = false;
         for (std::size_t k = 0; k < movements.size(); ++k) {
             for (std::size_t m = k + 1; m < movements.size(); ++m) {
                 const NamedMovement& one = movements[k];
                 const NamedMovement& two = movements[m];
                 if (one.is_protected != two.is_protected || !conflicts_.contains({one.name, two.name})) continue;
                 if (one.is_protected) {
+                    has_conflict = true;
                     check_.error(two.field,
-                                 fmt::format("the protected movements {} and {} of phase {} conflict: make one "
+                                 fmt::format("the protected movements {} and {} of {} conflict: make one "
                                              "of them permissive, or give them different phases",
-                                             one.name, two.name, phase + 1));
+                                             one.name, two.name, phases));
                 } else if (!yields_by_turn(one.turn, two.turn) && !yields_by_turn(two.turn, one.turn)) {
-                    check_.error(two.field, fmt::format("the permissive movements {} and {} of phase {} conflict, and "
+                    has_conflict = true;
+                    check_.error(two.field, fmt::format("the permissive movements {} and {} of {} conflict, and "
                                                         "neither yields to the other: give them different phases",
-                                                        one.name, two.name, phase + 1));
+                                                        one.name, two.name, phases));
                 }
             }
         }
+        return has_conflict;
     }
+
+    bool runs_rings() const { return find_signal_controller(scenario_.signal.controller).runs_rings; }
 
     const Scenario& scenario_;
     Checker& check_;
     std::vector<std::string> names_;  // all movements of the intersection
     std::map<std::pair<std::string, std::string>, bool> conflicts_;
     std::map<std::string, Turn> turns_;
+    std::vector<std::vector<NamedMovement>> movements_;  // [phase] of the programme
 };
 
 // Reports fields of the section `signal` that have no effect beside phases.
@@ -206,6 +255,11 @@ void set_priorities(const std::vector<ProgrammeSettings>& programmes, int groups
     }
 }
 
+std::vector<int> groups_of(const Scenario& scenario, const std::vector<std::string>& movements) {
+    return groups_with_equal_lights(scenario.signal, movements,
+                                    find_signal_controller(scenario.signal.controller).runs_rings);
+}
+
 }  // namespace
 
 void check_phases(const Scenario& scenario, Checker& check) {
@@ -218,6 +272,10 @@ void check_phases(const Scenario& scenario, Checker& check) {
     if (!find_signal_controller(signal.controller).runs_phases) {
         return check.error("signal.controller", fmt::format("'{}' cannot run phases", signal.controller));
     }
+    if (find_signal_controller(signal.controller).runs_rings && !signal.programmes.empty()) {
+        return check.error("signal.programmes", fmt::format("'{}' has a single programme: use signal.phases",
+                                                            signal.controller));
+    }
     refuse_stage_times(check);
     PhaseChecker phases(scenario, check);
     if (!signal.phases.empty()) phases.check_programme(signal.phases, "signal.phases");
@@ -229,14 +287,14 @@ void check_phases(const Scenario& scenario, Checker& check) {
 void assign_phase_groups(const Scenario& scenario, LaneGraph& graph) {
     if (!scenario.signal.has_phases()) return;
     const std::vector<std::string> movements = movement_names(scenario.network.intersection);
-    assign_movement_groups(graph, movements, groups_with_equal_lights(scenario.signal, movements));
+    assign_movement_groups(graph, movements, groups_of(scenario, movements));
 }
 
 void add_phase_signals(const Scenario& scenario, const std::vector<double>& first_green_s, Model& model) {
     assign_phase_groups(scenario, model.graph);
     // One movement stands for all movements of its group.
     const std::vector<std::string> movements = movement_names(scenario.network.intersection);
-    const std::vector<int> groups = groups_with_equal_lights(scenario.signal, movements);
+    const std::vector<int> groups = groups_of(scenario, movements);
     std::vector<std::string> of_group;
     for (std::size_t k = 0; k < movements.size(); ++k) {
         if (at(groups[k]) == of_group.size()) of_group.push_back(movements[k]);
@@ -251,7 +309,10 @@ void add_phase_signals(const Scenario& scenario, const std::vector<double>& firs
         model.signals.add(make_phase_signal_plan(signal, model.signals.groups(), of_group, scenario.tick_s(),
                                                  to_ticks(end_s, scenario.tick_s())));
     }
-    set_priorities(phase_programmes(scenario.signal), static_cast<int>(of_group.size()), model);
+    const bool runs_rings = find_signal_controller(scenario.signal.controller).runs_rings;
+    set_priorities(runs_rings ? std::vector<ProgrammeSettings>{{0.0, ring_pair_phases(scenario.signal)}}
+                              : phase_programmes(scenario.signal),
+                   static_cast<int>(of_group.size()), model);
 }
 
 }  // namespace stopline

@@ -18,7 +18,7 @@ std::string seconds(double value) { return short_text(value, unit("s")); }
 
 void check_signal(const SignalSettings& signal, Checker& check) {
     const double shortest = signal.green_s + signal.yellow_s + signal.all_red_s;
-    if (signal.cycle_s != 0.0 && signal.cycle_s < shortest) {
+    if (signal.cycle_s != 0.0 && signal.cycle_s < shortest && !signal.has_phases()) {
         check.error("cycle", "a cycle of " + seconds(signal.cycle_s) + " is shorter than green + yellow + all red = " +
                                  seconds(shortest) + " (write 0 s for a single green)");
     }
@@ -105,6 +105,14 @@ const Table& phase_table() {
                 "recall", {"off", "minimum", "maximum"},
                 "controllers that react to traffic; minimum: the phase is served in each cycle; maximum: "
                 "it is served in each cycle for its maximum green"),
+            whole_number<&S::ring>("ring", {1, 2}, "controller dual_ring: ring of the phase"),
+            whole_number<&S::barrier>("barrier", {1, 2},
+                                      "controller dual_ring: phases of both rings with the same number run together"),
+            choice<&S::dual_entry>("dual_entry", {"off", "on"}, "controller dual_ring: the phase is served without a call if the other "
+                                                 "ring has a call for the same barrier"),
+            choice<&S::coordinated>("coordinated", {"off", "on"},
+                                       "controller dual_ring with signal.cycle: the green of this phase repeats with "
+                                       "the cycle"),
         },
         [](const S& s, Checker& check) {
             if (s.min_green_s <= s.longest_green_s() || !check.given("min_green")) return;
@@ -146,7 +154,8 @@ std::vector<Row<SignalSettings>> signal_rows() {
             "grid: delay of the start of green from each column to the next one eastwards, and from each row to "
             "the next one northwards"),
         number<&SignalSettings::cycle_s>("cycle", "s", {0, 14'400},
-                                         "single light: time from one green to the next; 0 s: one green only"),
+                                         "single light: time from one green to the next; 0 s: one green only; "
+                                         "controller dual_ring: background cycle of the coordination; 0 s: none"),
         list<&SignalSettings::phases>(
             "phases", phase_table, {0, 32},
             "intersections and grids: phases in the order of their greens; they replace green, cross_green, yellow and "

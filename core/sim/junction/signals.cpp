@@ -25,6 +25,14 @@ std::uint64_t groups_of(const LaneGraph& graph, const SignalPlan& plan, const La
     return groups;
 }
 
+// Returns the phases of the imported detector at this place, or 0 if the detectors of the signal are not imported.
+std::uint64_t phases_of(const SignalPlan& plan, const Detector& detector) {
+    for (const LaneDetector& one : plan.lane_detectors) {
+        if (one.lane == detector.lane) return one.phases;
+    }
+    return 0;
+}
+
 // Returns all detectors on the approach lanes of each signal whose controller reads detectors, in the order of
 // Model::detectors.
 std::vector<std::vector<SignalDetector>> signal_detectors(const Model& model) {
@@ -50,6 +58,8 @@ std::vector<std::vector<SignalDetector>> signal_detectors(const Model& model) {
         detectors[place.signal].push_back({static_cast<int>(number), place.group,
                                            groups_of(model.graph, model.signals[place.signal], lane),
                                            lane.stop_line_m - detector.position_m});
+        if (detector.kind == Detector::Kind::signal)
+            detectors[place.signal].back().phases = phases_of(model.signals[place.signal], detector);
     }
     return detectors;
 }

@@ -1,0 +1,29 @@
+#include "signals/actuation.h"
+
+#include <cmath>
+
+namespace stopline {
+
+bool is_at(const SignalPlan& plan, const SignalDetector& detector, std::size_t parameter) {
+    constexpr double kTolerance_m = 0.01;
+    if (!plan.lane_detectors.empty()) return parameter == kStopDetector && detector.phases != 0;
+    const double to_line_m = plan.values[parameter];
+    if (parameter == kAdvanceDetector && to_line_m <= 0.0) return false;
+    return std::abs(detector.to_line_m - to_line_m) < kTolerance_m;
+}
+
+bool extends_phase(const SignalPlan& plan, const SignalDetector& detector, int phase) {
+    if (!plan.lane_detectors.empty()) return (detector.phases >> phase & 1U) != 0;
+    return (detector.groups & plan.phases.phases[static_cast<std::size_t>(phase)].green_groups) != 0;
+}
+
+std::vector<double> actuation_detectors_m(const SignalSettings& settings) {
+    std::vector<double> to_line_m;
+    for (const SignalParameter& parameter : kActuationParameters) {
+        if (const double value_m = signal_parameter(settings, parameter.name); value_m > 0.0)
+            to_line_m.push_back(value_m);
+    }
+    return to_line_m;
+}
+
+}  // namespace stopline

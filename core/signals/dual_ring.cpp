@@ -1,0 +1,444 @@
+// The dual-ring controller (NEMA TS 2; FHWA, Signal Timing Manual, second edition, chapters 4 to 7). Its phases run in two
+// rings. A green lasts at least its minimum. It then ends for another phase with a call at a gap in the traffic or at its
+// maximum. Phases without a call are skipped.
+//
+// - Within a side of the barriers each ring goes on by itself, in the order of the file.
+// - Both rings leave a side in the same tick, when both greens may end (simultaneous gap-out). The next side begins when
+//   both rings are cleared. A phase whose turn is over gets its next green after a barrier, too: without a call beyond the
+//   barrier, both rings begin the same side again.
+// - A lane calls the phases that protect all its movements. Without such a phase it calls those with green for all of
+//   them, else those that protect one of them, else those with green for one of them. The same lanes extend the green.
+//
+// Coordination. Each ring has one coordinated phase. It holds its green up to its yield point in the background cycle.
+// Another phase gets green only if its minimum fits in before its force-off point. Its green lasts at most its green time
+// (floating force-off), so the time that it leaves goes to the coordinated phases.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "signals/actuation.h"
+#include "signals/ring_problems.h"
+#include "signals/signal_controller.h"
+
+namespace stopline {
+
+namespace {
+
+// red: the ring has no phase, or its phase is over and the other ring is not cleared yet.
+enum class RingInterval : std::uint8_t { green, yellow, all_red, red };
+
+// Indices in the memory of the controller. The first numbers belong to the whole signal. The numbers of the two rings
+// follow, then the ticks at which the groups last lost green.
+enum : std::size_t { kHasBegun, kSide, kIsCrossing, kRingNumbers };
+
+// Numbers of a ring. kCurrentPhase: -1: none. kLastPlace: place of the last phase on the present side; -1: none.
+// kClearing: groups that show yellow or red after the phase. kMaximumStart: tick of the first call that ends the phase.
+// kPoint: tick of the force-off or yield point.
+enum : std::size_t {
+    kRingInterval,
+    kCurrentPhase,
+    kFollowingPhase,
+    kIntervalStart,
+    kLastPlace,
+    kClearing,
+    kMaximumStart,
+    kPoint,
+    kNumbersOfRing
+};
+constexpr std::size_t kGroupEnds = kRingNumbers + kRings * kNumbersOfRing;
+
+class DualRingSignal {
+public:
+    explicit DualRingSignal(SignalView& view)
+        : view_(view), plan_(view.plan().phases), rings_(plan_.rings), memory_(view.memory()) {}
+
+    void reset() {
+        for (std::size_t ring = 0; ring < kRings; ++ring) {
+            set(ring, RingInterval::red);
+            at(ring, kCurrentPhase) = at(ring, kFollowingPhase) = at(ring, kLastPlace) = -1;
+        }
+        for (int group = 0; group < view_.groups(); ++group) memory_[kGroupEnds + index(group)] = -1;
+    }
+
+    // Sets the lights of the present tick.
+    void step() {
+        if (memory_[kHasBegun] == 0) return begin_run();
+        for (std::size_t ring = 0; ring < kRings; ++ring) clear(ring);
+        if (memory_[kIsCrossing] != 0) {
+            if (interval(0) == RingInterval::red && interval(1) == RingInterval::red) begin_side();
+            return;
+        }
+        for (std::size_t ring = 0; ring < kRings; ++ring) enter_from_red(ring);
+        for (std::size_t ring = 0; ring < kRings; ++ring) go_on(ring);
+        cross();
+    }
+
+private:
+    static std::size_t index(int number) { return static_cast<std::size_t>(number); }
+    std::int64_t& at(std::size_t ring, std::size_t number) {
+        return memory_[kRingNumbers + ring * kNumbersOfRing + number];
+    }
+    std::int64_t at(std::size_t ring, std::size_t number) const {
+        return memory_[kRingNumbers + ring * kNumbersOfRing + number];
+    }
+    RingInterval interval(std::size_t ring) const { return static_cast<RingInterval>(at(ring, kRingInterval)); }
+    int current(std::size_t ring) const { return static_cast<int>(at(ring, kCurrentPhase)); }
+    int following(std::size_t ring) const { return static_cast<int>(at(ring, kFollowingPhase)); }
+    int side() const { return static_cast<int>(memory_[kSide]); }
+    const SignalPhase& phase(int number) const { return plan_.phases[index(number)]; }
+    const RingPhase& in_ring(int number) const { return rings_.phases[index(number)]; }
+    bool is_coordinated(int number) const { return rings_.is_coordinated() && in_ring(number).is_coordinated; }
+    bool has_green(std::size_t ring) const { return interval(ring) == RingInterval::green; }
+    bool is_green(int number) const {
+        const std::size_t ring = in_ring(number).ring;
+        return has_green(ring) && current(ring) == number;
+    }
+    static std::uint64_t bit(int group) { return std::uint64_t{1} << group; }
+
+    void set(std::size_t ring, RingInterval interval) {
+        at(ring, kRingInterval) = static_cast<std::int64_t>(interval);
+        at(ring, kIntervalStart) = view_.tick();
+    }
+
+    // --- Lights ---------------------------------------------------------------------------------------------------
+
+    void begin_run() {
+        memory_[kHasBegun] = 1;
+        const int target = rings_.is_coordinated() ? coordinated_side() : first_called_side();
+        memory_[kSide] = target;
+        for (std::size_t ring = 0; ring < kRings; ++ring) {
+            const auto& order = rings_.order[ring][index(target)];
+            int next = rings_.is_coordinated() ? rings_.coordinated[ring] : entering_phase(ring, target, 0);
+            if (next < 0 && !order.empty()) next = order.front();
+            at(ring, kFollowingPhase) = next;
+        }
+        begin_side();
+    }
+
+    int coordinated_side() const {
+        return in_ring(std::max(rings_.coordinated[0], rings_.coordinated[1])).side;
+    }
+
+    int first_called_side() const {
+        for (int number = 0; number < rings_.sides(); ++number) {
+            if (has_call_on(number, 0)) return number;
+        }
+        return 0;
+    }
+
+    void begin_side() {
+        memory_[kIsCrossing] = 0;
+        for (std::size_t ring = 0; ring < kRings; ++ring) {
+            at(ring, kCurrentPhase) = -1;
+            at(ring, kLastPlace) = -1;
+        }
+        for (std::size_t ring = 0; ring < kRings; ++ring) {
+            if (following(ring) >= 0) {
+                memory_[kSide] = in_ring(following(ring)).side;
+                begin_green(ring, following(ring));
+            }
+        }
+    }
+
+    void begin_green(std::size_t ring, int number) {
+        set(ring, RingInterval::green);
+        at(ring, kCurrentPhase) = number;
+        at(ring, kFollowingPhase) = -1;
+        at(ring, kLastPlace) = in_ring(number).place;
+        at(ring, kMaximumStart) = -1;
+        if (rings_.is_coordinated())
+            at(ring, kPoint) = view_.tick() + rings_.ticks_to(in_ring(number).force_off, view_.tick());
+        for (int group = 0; group < view_.groups(); ++group) show_green_of(ring, group);
+        const int pair = rings_.pair({{current(0), current(1)}});
+        if (pair >= 0) view_.begin_phase(pair);
+    }
+
+    // Shows green if the phase of the ring has green for the group and the other ring is not clearing it.
+    void show_green_of(std::size_t ring, int group) {
+        if (!phase(current(ring)).has_green(group) || is_clearing(1 - ring, group)) return;
+        view_.show(group, Light::green);
+    }
+    bool is_clearing(std::size_t ring, int group) const {
+        return (static_cast<std::uint64_t>(at(ring, kClearing)) & bit(group)) != 0;
+    }
+
+    void begin_yellow(std::size_t ring, int next) {
+        at(ring, kFollowingPhase) = next;
+        set(ring, RingInterval::yellow);
+        for (int group = 0; group < view_.groups(); ++group) {
+            if (!phase(current(ring)).has_green(group) || view_.light(group) != Light::green) continue;
+            if (keeps_green(0, group) || keeps_green(1, group)) continue;
+            at(ring, kClearing) |= static_cast<std::int64_t>(bit(group));
+            view_.show(group, Light::yellow);
+            memory_[kGroupEnds + index(group)] = view_.tick();
+        }
+        clear(ring);
+    }
+
+    // Returns true if the ring has green for the group now, and in its next phase if the present phase is ending.
+    bool keeps_green(std::size_t ring, int group) const {
+        if (current(ring) < 0 || !phase(current(ring)).has_green(group)) return false;
+        if (has_green(ring)) return true;
+        return following(ring) >= 0 && phase(following(ring)).has_green(group);
+    }
+
+    // Ends yellow and red times that are over.
+    void clear(std::size_t ring) {
+        if (interval(ring) == RingInterval::yellow && elapsed(ring) >= phase(current(ring)).yellow_ticks) {
+            set(ring, RingInterval::all_red);
+            for (int group = 0; group < view_.groups(); ++group) {
+                if (is_clearing(ring, group)) view_.show(group, Light::red);
+            }
+        }
+        if (interval(ring) != RingInterval::all_red || elapsed(ring) < phase(current(ring)).all_red_ticks) return;
+        const auto cleared = static_cast<std::uint64_t>(at(ring, kClearing));
+        at(ring, kClearing) = 0;
+        for (int group = 0; group < view_.groups(); ++group) {
+            if ((cleared & bit(group)) != 0 && has_green(1 - ring)) show_green_of(1 - ring, group);
+        }
+        if (memory_[kIsCrossing] != 0) {
+            set(ring, RingInterval::red);
+        } else {
+            begin_green(ring, following(ring));
+        }
+    }
+
+    std::int64_t elapsed(std::size_t ring) const { return view_.tick() - at(ring, kIntervalStart); }
+    std::int64_t clearance(std::size_t ring) const {
+        if (!has_green(ring)) return 0;
+        return phase(current(ring)).yellow_ticks + phase(current(ring)).all_red_ticks;
+    }
+
+    // --- Sequence ---------------------------------------------------------------------------------------------------
+
+    // Begins a phase in a ring that is red, while the other ring has green.
+    void enter_from_red(std::size_t ring) {
+        if (interval(ring) != RingInterval::red) return;
+        const int next = later_phase(ring, 0);
+        if (next >= 0) begin_green(ring, next);
+    }
+
+    void go_on(std::size_t ring) {
+        if (!has_green(ring)) return;
+        const int next = later_phase(ring, clearance(ring));
+        if (next < 0 && crossing_target() < 0) {
+            at(ring, kMaximumStart) = -1;
+            return;
+        }
+        if (at(ring, kMaximumStart) < 0) at(ring, kMaximumStart) = view_.tick();
+        if (next >= 0 && may_end(ring)) begin_yellow(ring, next);
+    }
+
+    // Ends the greens of both rings if both may end for another side.
+    void cross() {
+        for (std::size_t ring = 0; ring < kRings; ++ring) {
+            if (interval(ring) == RingInterval::yellow || interval(ring) == RingInterval::all_red) return;
+            if (later_phase(ring, clearance(ring)) >= 0 || !may_end(ring)) return;
+        }
+        const int target = crossing_target();
+        if (target < 0) return;
+        const std::int64_t start = view_.tick() + crossing_ticks();
+        std::array<int, kRings> next{};
+        for (std::size_t ring = 0; ring < kRings; ++ring) next[ring] = entering_phase(ring, target, start);
+        memory_[kIsCrossing] = 1;
+        for (std::size_t ring = 0; ring < kRings; ++ring) at(ring, kFollowingPhase) = next[ring];
+        std::array<bool, kRings> ends{has_green(0), has_green(1)};
+        // Both greens end at once: neither ring keeps the green of a group for the other one.
+        for (std::size_t ring = 0; ring < kRings; ++ring) {
+            if (ends[ring]) set(ring, RingInterval::yellow);
+        }
+        for (std::size_t ring = 0; ring < kRings; ++ring) {
+            if (ends[ring]) begin_yellow(ring, next[ring]);
+        }
+        if (interval(0) == RingInterval::red && interval(1) == RingInterval::red) begin_side();
+    }
+
+    std::int64_t crossing_ticks() const { return std::max(clearance(0), clearance(1)); }
+
+    // Returns the next phase of the ring on the present side that can begin after the clearance; -1: none.
+    int later_phase(std::size_t ring, std::int64_t clearance_ticks) const {
+        const auto& order = rings_.order[ring][index(side())];
+        for (std::size_t k = index(static_cast<int>(at(ring, kLastPlace)) + 1); k < order.size(); ++k) {
+            if (can_begin(order[k], view_.tick() + clearance_ticks)) return order[k];
+        }
+        return -1;
+    }
+
+    // Returns the next side with a phase that can begin: another side, or the present one if a phase whose turn is over
+    // has a call; -1: none.
+    int crossing_target() const {
+        const std::int64_t start = view_.tick() + crossing_ticks();
+        for (int k = 1; k < rings_.sides(); ++k) {
+            const int target = (side() + k) % rings_.sides();
+            if (has_call_on(target, start)) return target;
+        }
+        for (std::size_t ring = 0; ring < kRings; ++ring) {
+            for (const int number : rings_.order[ring][index(side())]) {
+                const bool is_over = in_ring(number).place <= at(ring, kLastPlace);
+                if (is_over && !is_green(number) && can_begin(number, start)) return side();
+            }
+        }
+        return -1;
+    }
+
+    bool has_call_on(int target, std::int64_t start) const {
+        return std::any_of(rings_.order.begin(), rings_.order.end(), [&](const auto& order) {
+            const auto& phases = order[index(target)];
+            return std::any_of(phases.begin(), phases.end(), [&](int number) { return can_begin(number, start); });
+        });
+    }
+
+    // Returns the phase with which the ring begins a side; -1: none.
+    int entering_phase(std::size_t ring, int target, std::int64_t start) const {
+        const auto& order = rings_.order[ring][index(target)];
+        for (const int number : order) {
+            if (can_begin(number, start)) return number;
+        }
+        for (const int number : order) {
+            if (in_ring(number).has_dual_entry && fits(number, start)) return number;
+        }
+        return -1;
+    }
+
+    // Returns true if the phase has a call and its green can begin at the tick `start`.
+    bool can_begin(int number, std::int64_t start) const { return fits(number, start) && has_call(number); }
+
+    // Returns true if the minimum green of the phase fits in before its force-off point, and this point lies before the
+    // next green of the coordinated phase. The coordinated phase itself can begin at any time.
+    bool fits(int number, std::int64_t start) const {
+        if (!rings_.is_coordinated() || in_ring(number).is_coordinated) return true;
+        const std::size_t ring = in_ring(number).ring;
+        const RingPhase& coordinated = in_ring(rings_.coordinated[rings_.coordinated[ring] >= 0 ? ring : 1 - ring]);
+        if (!is_between_greens(coordinated, start)) return false;
+        const std::int64_t to_force_off = rings_.ticks_to(in_ring(number).force_off, start);
+        return to_force_off >= phase(number).min_green_ticks && to_force_off <= rings_.ticks_to(coordinated.start_point, start);
+    }
+
+    // Returns true if the present phase of the ring may end. A ring without a phase need not wait.
+    bool may_end(std::size_t ring) const {
+        if (!has_green(ring)) return true;
+        const SignalPhase& own = phase(current(ring));
+        const std::int64_t shown = elapsed(ring);
+        if (shown < own.min_green_ticks) return false;
+        if (is_coordinated(current(ring))) return may_yield(ring);
+        const bool has_gap = own.recall != Recall::maximum && gap_has_passed(current(ring));
+        if (rings_.is_coordinated()) return has_gap || shown >= own.green_ticks || view_.tick() >= at(ring, kPoint);
+        const std::int64_t maximum = std::max(own.max_green_ticks, own.min_green_ticks);
+        if (own.recall == Recall::maximum) return shown >= maximum;
+        return has_gap || (at(ring, kMaximumStart) >= 0 && view_.tick() - at(ring, kMaximumStart) >= maximum);
+    }
+
+    bool may_yield(std::size_t ring) const {
+        return view_.tick() >= at(ring, kPoint) && is_between_greens(in_ring(current(ring)), view_.tick());
+    }
+
+    // Returns true between the yield point of the coordinated phase and the latest start of its next green.
+    bool is_between_greens(const RingPhase& coordinated, std::int64_t tick) const {
+        const std::int64_t to_start = rings_.ticks_to(coordinated.start_point, tick);
+        const std::int64_t longest = coordinated.start_point - coordinated.force_off + rings_.cycle_ticks;
+        return to_start > 0 && to_start <= longest;
+    }
+
+    // --- Detectors --------------------------------------------------------------------------------------------------
+
+    bool gap_has_passed(int number) const {
+        const auto detectors = view_.detectors();
+        return std::none_of(detectors.begin(), detectors.end(), [&](const SignalDetector& detector) {
+            return detector.last_occupied_tick >= 0 &&
+                   view_.tick() - detector.last_occupied_tick < phase(number).gap_ticks && is_used(detector) &&
+                   belongs_to(detector, number);
+        });
+    }
+
+    bool has_call(int number) const {
+        if (phase(number).recall != Recall::off || is_coordinated(number)) return true;
+        const auto detectors = view_.detectors();
+        return std::any_of(detectors.begin(), detectors.end(), [&](const SignalDetector& detector) {
+            return is_waiting(detector) && belongs_to(detector, number);
+        });
+    }
+
+    // Returns true if a vehicle waits at the stop line, or has passed the upstream detector while the lane was red.
+    bool is_waiting(const SignalDetector& detector) const {
+        if (is_at(view_.plan(), detector, kStopDetector)) return detector.is_occupied;
+        if (!is_at(view_.plan(), detector, kAdvanceDetector)) return false;
+        std::int64_t last_end = -1;
+        for (int group = 0; group < view_.groups(); ++group) {
+            if ((detector.groups & bit(group)) == 0) continue;
+            if (view_.light(group) == Light::green) return false;
+            last_end = std::max(last_end, memory_[kGroupEnds + index(group)]);
+        }
+        return detector.last_crossing_tick > last_end;
+    }
+
+    bool is_used(const SignalDetector& detector) const {
+        return is_at(view_.plan(), detector, kStopDetector) || is_at(view_.plan(), detector, kAdvanceDetector);
+    }
+
+    // Returns true if the lane of the detector calls and extends the phase.
+    bool belongs_to(const SignalDetector& detector, int number) const {
+        return service(detector, number) > 0 && service(detector, number) == best_service(detector);
+    }
+    // Returns how well a phase serves the lane of a detector, from 0 (not at all) to 4 (all movements are protected).
+    int service(const SignalDetector& detector, int number) const {
+        if (!view_.plan().lane_detectors.empty()) return extends_phase(view_.plan(), detector, number) ? 4 : 0;
+        const std::uint64_t green = phase(number).green_groups;
+        const std::uint64_t protected_groups = in_ring(number).protected_groups;
+        if ((detector.groups & ~protected_groups) == 0) return 4;
+        if ((detector.groups & ~green) == 0) return 3;
+        if ((detector.groups & protected_groups) != 0) return 2;
+        return (detector.groups & green) != 0 ? 1 : 0;
+    }
+    int best_service(const SignalDetector& detector) const {
+        int best = 0;
+        for (int number = 0; number < static_cast<int>(plan_.phases.size()); ++number) {
+            best = std::max(best, service(detector, number));
+        }
+        return best;
+    }
+
+    SignalView& view_;
+    const PhasePlan& plan_;
+    const RingPlan& rings_;
+    std::span<std::int64_t> memory_;
+};
+
+std::int64_t start_rings(SignalView& view) {
+    DualRingSignal signal(view);
+    signal.reset();
+    const std::int64_t first_tick = to_ticks(view.plan().settings.first_green_s, view.plan().step_s);
+    if (first_tick > view.tick()) return first_tick;
+    signal.step();
+    return view.tick() + 1;
+}
+
+std::int64_t step_rings(SignalView& view) {
+    DualRingSignal(view).step();
+    return view.tick() + 1;
+}
+
+NominalCycle nominal_ring_cycle(const SignalSettings& settings, int /*groups*/) {
+    if (!settings.has_phases()) return {settings.intersection_cycle_s(), settings.green_s};
+    NominalCycle nominal{settings.cycle_s > 0.0 ? settings.cycle_s : ring_cycle_s(settings), 0.0};
+    for (const PhaseSettings& phase : settings.phases) nominal.longest_green_s = std::max(nominal.longest_green_s, phase.green_s);
+    return nominal;
+}
+
+}  // namespace
+
+extern const SignalController kDualRingController{
+    .name = "dual_ring",
+    .meaning =
+        "phases in two rings with barriers (NEMA): as actuated, but one phase of each ring at a time; with "
+        "signal.cycle, they are coordinated",
+    .parameters = kActuationParameters,
+    .nominal_cycle = nominal_ring_cycle,
+    .init = start_rings,
+    .step = step_rings,
+    .memory_size = [](const SignalPlan& plan) { return kGroupEnds + plan.groups.size(); },
+    .detectors_m = actuation_detectors_m,
+    .problems = ring_problems,
+    .runs_phases = true,
+    .runs_rings = true};
+
+}  // namespace stopline
