@@ -116,7 +116,8 @@ private:
         const std::int64_t maximum = std::max(own.max_green_ticks, own.min_green_ticks);
         if (own.recall == Recall::maximum) return shown >= maximum;
         if (shown < own.min_green_ticks) return false;
-        return view_.tick() - memory_[kMaximumFrom] >= maximum || gap_has_passed(own);
+        if (view_.tick() - memory_[kMaximumFrom] >= maximum) return true;
+        return shown % decision_ticks(view_.plan()) == 0 && gap_has_passed(own);
     }
 
     bool gap_has_passed(const SignalPhase& own) const {

@@ -1,5 +1,6 @@
 #include "signals/actuation.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace stopline {
@@ -15,6 +16,10 @@ bool is_at(const SignalPlan& plan, const SignalDetector& detector, std::size_t p
 bool extends_phase(const SignalPlan& plan, const SignalDetector& detector, int phase) {
     if (!plan.lane_detectors.empty()) return (detector.phases >> phase & 1U) != 0;
     return (detector.groups & plan.phases.phases[static_cast<std::size_t>(phase)].green_groups) != 0;
+}
+
+std::int64_t decision_ticks(const SignalPlan& plan) {
+    return plan.lane_detectors.empty() ? 1 : std::max<std::int64_t>(to_ticks(1.0, plan.step_s), 1);
 }
 
 std::vector<double> actuation_detectors_m(const SignalSettings& settings) {

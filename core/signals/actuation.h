@@ -29,6 +29,10 @@ bool is_at(const SignalPlan& plan, const SignalDetector& detector, std::size_t p
 // extends the phase.
 bool extends_phase(const SignalPlan& plan, const SignalDetector& detector, int phase);
 
+// Returns the ticks between two decisions about the end of a green. Imported controllers decide once a second, as those of
+// SUMO do.
+std::int64_t decision_ticks(const SignalPlan& plan);
+
 // Returns the distances of both detectors from the stop line, m. A distance of 0 m adds no detector.
 std::vector<double> actuation_detectors_m(const SignalSettings& settings);
 

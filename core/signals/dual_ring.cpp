@@ -319,7 +319,7 @@ private:
         if (!has_green(ring)) return true;
         const SignalPhase& own = phase(current(ring));
         const std::int64_t shown = elapsed(ring);
-        if (shown < own.min_green_ticks) return false;
+        if (shown < own.min_green_ticks || view_.tick() % decision_ticks(view_.plan()) != 0) return false;
         if (is_coordinated(current(ring))) return may_yield(ring);
         const bool has_gap = own.recall != Recall::maximum && gap_has_passed(current(ring));
         if (rings_.is_coordinated()) return has_gap || shown >= own.green_ticks || view_.tick() >= at(ring, kPoint);

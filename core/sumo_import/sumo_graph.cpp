@@ -12,6 +12,7 @@
 #include "base/input_error.h"
 #include "base/simd/arithmetic.h"
 #include "network/conflicts.h"
+#include "sumo_import/controllers/sumo_controller.h"
 #include "sumo_import/sumo_right_of_way.h"
 #include "sumo_import/sumo_short_edges.h"
 
@@ -27,6 +28,7 @@ public:
 
     SumoNetwork build() {
         net().check_lights();
+        set_sumo_controllers(network_.net);
         network_.lights.push_back({});
         merge_short_edges(network_.net);
         add_edges();
@@ -42,6 +44,7 @@ public:
         for (int lane = 0; lane < first_connection_; ++lane) finish_lane(lane);
         assign_signal_groups();
         find_sumo_conflicts(network_, connections_, clearance_m_);
+        place_sumo_detectors(network_, connections_);
         limit_entry_speeds();
         drop_loops_off_car_lanes();
         network_.graph.signal_groups = static_cast<int>(network_.lights.size());

@@ -6,6 +6,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -90,7 +92,17 @@ struct SumoJunction {
 struct SumoPhase {
     double duration_s = 0.0;
     std::string state;  // one letter for the light of each link of the signal
+    // For controllers that react to traffic:
+    std::string name = {};
+    double min_s = 0.0;  // minimum and maximum green
+    double max_s = 0.0;
+    double extension_s = 0.0;  // NEMA: time by which a vehicle extends the green
+    double yellow_s = 0.0;     // NEMA
+    double red_s = 0.0;        // NEMA
+    std::vector<int> next = {};
 };
+
+struct SumoController;  // controllers/sumo_controller.h
 
 struct SumoSignal {
     std::string id;
@@ -99,6 +111,10 @@ struct SumoSignal {
     std::vector<SumoPhase> phases = {};  // empty until a programme is read
     std::string where;                   // file:line
     bool defined_in_net = false;         // the network file contains a programme for this signal
+    std::string type = {};               // static, actuated, NEMA, ...
+    std::map<std::string, std::string> parameters = {};
+    // Set by set_sumo_controllers(); null: the signal follows its phases as a fixed-time programme.
+    std::shared_ptr<SumoController> controller = {};
 
     double cycle_s() const;
 };

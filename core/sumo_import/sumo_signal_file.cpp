@@ -13,6 +13,15 @@ namespace {
 
 constexpr double kMaxDuration_s = 1e6;
 
+void read_next(const SumoXml& xml, pugi::xml_node node, SumoPhase& phase) {
+    for (const std::string_view word : sumo_words(node.attribute("next").value())) {
+        const std::optional<double> number = sumo_number(word);
+        if (!number || *number < 0.0 || *number != std::floor(*number) || *number > 1e6)
+            xml.refuse(node, fmt::format("next=\"{}\" must be numbers of phases", node.attribute("next").value()));
+        phase.next.push_back(static_cast<int>(*number));
+    }
+}
+
 SumoPhase phase_of(const SumoXml& xml, pugi::xml_node node, SumoWarnings& warnings) {
     constexpr std::string_view kLetters = "rugGyYsoO";
     SumoPhase phase{xml.number(node, "duration"), xml.text(node, "state")};
@@ -28,8 +37,18 @@ SumoPhase phase_of(const SumoXml& xml, pugi::xml_node node, SumoWarnings& warnin
     if (phase.state.find('s') != std::string::npos) {
         warnings.note(xml.where(node), "the letter 's' is read as 'g': vehicles do not stop first");
     }
-    if (node.attribute("next"))
-        warnings.note(xml.where(node), "'next' is ignored: phases run in the order of the file");
+    phase.name = node.attribute("name").value();
+    phase.min_s = xml.number_or(node, "minDur", phase.duration_s);
+    phase.max_s = xml.number_or(node, "maxDur", node.attribute("minDur") ? kMaxDuration_s : phase.duration_s);
+    phase.extension_s = xml.number_or(node, "vehext", 2.0);
+    phase.yellow_s = xml.number_or(node, "yellow", 3.0);
+    phase.red_s = xml.number_or(node, "red", 2.0);
+    for (const char* const name : {"minDur", "maxDur", "vehext", "yellow", "red"}) {
+        const double value_s = xml.number_or(node, name, 0.0);
+        if (value_s >= 0.0 && value_s < 1e10) continue;
+        xml.refuse(node, fmt::format("{}=\"{}\" must be at least 0", name, node.attribute(name).value()));
+    }
+    read_next(xml, node, phase);
     return phase;
 }
 
@@ -65,11 +84,11 @@ void add_sumo_signal(const SumoXml& xml, pugi::xml_node node, bool from_net, Sum
         xml.refuse(node, fmt::format("'offset' must be between -{0} and {0} s", kMaxDuration_s));
     }
     read_phases(xml, node, signal, warnings);
-    const std::string type = node.attribute("type").value();
-    if (!type.empty() && type != "static") {
-        warnings.note(
-            signal.where,
-            fmt::format("signals of type '{}' run as fixed-time signals with the durations of the file", type));
+    signal.type = node.attribute("type").value();
+    for (const pugi::xml_node parameter : node.children("param"))
+        signal.parameters[xml.text(parameter, "key")] = parameter.attribute("value").value();
+    for (const char* const name : {"condition", "assignment", "function"}) {
+        if (node.child(name)) warnings.note(signal.where, fmt::format("'{}' of signals is ignored", name));
     }
     const auto known = net.signal_by_id.find(signal.id);
     const bool is_known = known != net.signal_by_id.end();

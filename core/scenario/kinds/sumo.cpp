@@ -31,6 +31,7 @@ std::vector<Row<NetworkSettings>> sumo_fields() {
 
 void add_signals_of_sumo(const Scenario& scenario, Model& model) {
     model.signals = make_sumo_signals(*scenario.network.sumo, scenario.tick_s());
+    model.priorities_by_phase = make_sumo_priorities_by_phase(*scenario.network.sumo);
     model.phase_priorities = make_sumo_phase_priorities(*scenario.network.sumo, scenario.tick_s());
 }
 
