@@ -7,6 +7,7 @@
 #include "base/io/escape.h"
 #include "sumo_export/imported_vehicles.h"
 #include "sumo_export/inputs.h"
+#include "sumo_import/controllers/sumo_controller.h"
 
 namespace stopline {
 
@@ -19,8 +20,20 @@ bool has_signal(const LaneGraph& graph, const Lane& lane) {
            });
 }
 
-// Writes the signal programmes that Stopline uses, as fixed-time programmes with the programID 'stopline'. SUMO applies
-// them instead of the programmes in the network file, because it reads them last.
+// Writes a phase of a signal that reacts to traffic, with the attributes that the import has read.
+void write_controlled_phase(XmlFile& xml, const SumoSignal& signal, const SumoPhase& phase) {
+    xml.add(R"(        <phase duration="{:.3f}" state="{}" minDur="{:.3f}" maxDur="{:.3f}")", phase.duration_s, phase.state,
+            phase.min_s, phase.max_s);
+    if (signal.type == "NEMA") {
+        xml.add(R"( name="{}" vehext="{:.3f}" yellow="{:.3f}" red="{:.3f}")", escape_xml(phase.name), phase.extension_s,
+                phase.yellow_s, phase.red_s);
+    }
+    if (!phase.next.empty()) xml.add(" next=\"{}\"", phase.next.front());
+    xml.add("/>\n");
+}
+
+// Writes the signal programmes that Stopline uses, with the programID 'stopline'. SUMO applies them instead of the
+// programmes in the network file, because it reads them last. Signals that react to traffic keep their type.
 void write_lights(const std::filesystem::path& file, const SumoNetwork& network) {
     XmlFile xml(file, "additional", "additional_file.xsd");
     std::set<int> used_signals;
@@ -28,8 +41,15 @@ void write_lights(const std::filesystem::path& file, const SumoNetwork& network)
     for (const int number : used_signals) {
         if (number < 0) continue;
         const SumoSignal& signal = network.net.signals[at(number)];
-        xml.add("    <tlLogic id=\"{}\" type=\"static\" programID=\"stopline\" offset=\"{:.3f}\">\n",
-                escape_xml(signal.id), signal.offset_s);
+        xml.add("    <tlLogic id=\"{}\" type=\"{}\" programID=\"stopline\" offset=\"{:.3f}\">\n",
+                escape_xml(signal.id), signal.controller == nullptr ? "static" : signal.type, signal.offset_s);
+        if (signal.controller != nullptr) {
+            for (const auto& [name, value] : signal.parameters)
+                xml.add("        <param key=\"{}\" value=\"{}\"/>\n", escape_xml(name), escape_xml(value));
+            for (const SumoPhase& phase : signal.controller->file_phases) write_controlled_phase(xml, signal, phase);
+            xml.add("    </tlLogic>\n");
+            continue;
+        }
         for (const SumoPhase& phase : signal.phases) {
             if (phase.duration_s <= 0.0) continue;
             xml.add("        <phase duration=\"{:.3f}\" state=\"{}\"/>\n", phase.duration_s, phase.state);

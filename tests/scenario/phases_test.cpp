@@ -133,7 +133,67 @@ TEST(ActuatedSignals, AreChecked) {
         contains(error_of_signal(actuated + four_phases() + "  - {green: 10 s, recall: minimum, min_green: 12 s}\n"),
                  "field 'signal.phases[4].min_green': 12 s is longer than the maximum green, 10 s"));
     EXPECT_TRUE(contains(error_of_signal(four_phases() + "  advance_detector: 50 m\n"),
-                         "field 'signal.advance_detector' applies only if controller is actuated"));
+                         "field 'signal.advance_detector' applies only if controller is "));
+}
+
+// --- Rings ----------------------------------------------------------------------------------------------------------
+
+std::string ring_phase(int ring, int barrier, const std::string& movements, const std::string& more = "") {
+    return "  - {ring: " + std::to_string(ring) + ", barrier: " + std::to_string(barrier) + ", protected: [" + movements +
+           "], green: 20 s" + more + "}\n";
+}
+
+// Lines 7 and 8 of the file, then a line for each phase.
+std::string ring_phases(const std::string& coordinated = "") {
+    return "  controller: dual_ring\n  phases:\n" + ring_phase(1, 1, "west_left") +
+           ring_phase(1, 1, "east_straight, east_right", coordinated) + ring_phase(2, 1, "east_left") +
+           ring_phase(2, 1, "west_straight, west_right", coordinated) + ring_phase(1, 2, "south_left") +
+           ring_phase(1, 2, "north_straight, north_right") + ring_phase(2, 2, "north_left") +
+           ring_phase(2, 2, "south_straight, south_right");
+}
+
+TEST(DualRingSignals, AreAccepted) {
+    EXPECT_EQ(error_of_signal(ring_phases()), "");
+    EXPECT_EQ(error_of_signal("  cycle: 112 s\n" + ring_phases(", coordinated: on")), "");
+}
+
+TEST(DualRingSignals, ProtectedGreensOfBothRingsMustNotConflict) {
+    std::string phases = ring_phases();
+    // Phase 7 gets a movement that conflicts with phase 6, which can run together with it.
+    phases.replace(phases.find("north_left"), 10, "east_left, north_left");
+    EXPECT_TRUE(contains(error_of_signal(phases),
+                         "test.yaml:15:41: field 'signal.phases[6].protected[0]': the protected movements "
+                         "north_straight and east_left of phases 6 and 7 conflict"));
+    // The same movements in one phase are reported once.
+    phases = ring_phases();
+    phases.replace(phases.find("west_left"), 9, "west_left, east_straight");
+    EXPECT_EQ(lines_of(error_of_signal(phases)), 1U) << error_of_signal(phases);
+    EXPECT_TRUE(contains(error_of_signal(phases), "west_left and east_straight of phase 1 conflict"));
+}
+
+TEST(DualRingSignals, CoordinationIsChecked) {
+    EXPECT_TRUE(contains(error_of_signal("  cycle: 112 s\n" + ring_phases()),
+                         "test.yaml:7:10: field 'signal.cycle': coordination needs a phase with 'coordinated: on' in "
+                         "ring 1"));
+    EXPECT_TRUE(contains(error_of_signal("  cycle: 100 s\n" + ring_phases(", coordinated: on")),
+                         "field 'signal.cycle': 100 s is not the sum of the phases of a ring, 112 s"));
+    EXPECT_TRUE(contains(error_of_signal(ring_phases(", coordinated: on")),
+                         "test.yaml:10:86: field 'signal.phases[1].coordinated': has no effect without signal.cycle"));
+    EXPECT_TRUE(contains(error_of_signal("  cycle: 112.005 s\n" + ring_phases(", coordinated: on")),
+                         "field 'signal.cycle': 112.005 s is not a whole number of steps"));
+}
+
+TEST(DualRingSignals, OtherControllersHaveNoRings) {
+    std::string phases = ring_phases();
+    phases.replace(phases.find("dual_ring"), 9, "actuated");
+    EXPECT_TRUE(contains(error_of_signal(phases),
+                         "field 'signal.phases[0].ring': has no effect with the controller actuated"));
+    EXPECT_TRUE(contains(error_of_signal(ring_phases() + ring_phase(3, 1, "west_left")),
+                         "field 'signal.phases[8].ring'"));
+    EXPECT_TRUE(contains(error_of_signal("  controller: dual_ring\n"), "'dual_ring' needs signal.phases"));
+    EXPECT_TRUE(contains(error_of_signal("  controller: dual_ring\n  programmes:\n  - {from: 0 h, phases: "
+                                         "[{protected: west_left, green: 8 s}]}\n"),
+                         "field 'signal.programmes': 'dual_ring' has a single programme: use signal.phases"));
 }
 
 }  // namespace

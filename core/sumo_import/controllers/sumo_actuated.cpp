@@ -89,6 +89,9 @@ void set_actuated_controller(SumoSignal& signal, SumoWarnings& warnings) {
         controller->sumo_phases.push_back(order[k]);
         k = past;
     }
+    const auto is_fixed = [](const PhaseSettings& phase) { return phase.min_green_s >= phase.max_green_s; };
+    const auto& phases = controller->settings.phases;
+    if (std::all_of(phases.begin(), phases.end(), is_fixed)) return;
     if (controller->states.size() < 2 || controller->states.size() > kMaxPhases) return;
     if (signal.offset_s != 0.0) warnings.note(signal.where, "'offset' of actuated signals is ignored");
     note_unknown_parameters(signal,

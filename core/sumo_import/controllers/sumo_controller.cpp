@@ -13,12 +13,16 @@ namespace stopline {
 void set_sumo_controllers(SumoNet& net) {
     for (SumoSignal& signal : net.signals) {
         if (signal.type.empty() || signal.type == "static" || signal.phases.empty()) continue;
+        const std::vector<SumoPhase> file_phases = signal.phases;
         if (signal.type == "actuated") {
             set_actuated_controller(signal, net.warnings);
         } else if (signal.type == "NEMA") {
             set_nema_controller(signal, net.warnings);
         }
-        if (signal.controller != nullptr) continue;
+        if (signal.controller != nullptr) {
+            signal.controller->file_phases = file_phases;
+            continue;
+        }
         net.warnings.note(signal.where,
                           fmt::format("signals of type '{}' run as fixed-time signals with the durations of the file",
                                       signal.type));

@@ -20,6 +20,7 @@ struct SumoController {
     std::vector<int> sumo_phases;
     double cycle_start_s = 0.0;  // coordination: start of a background cycle
     std::vector<LaneDetector> detectors;
+    std::vector<SumoPhase> file_phases;  // phases of the file
 };
 
 // Sets SumoSignal::controller of all signals of the types `actuated` and `NEMA` that can run as such. The phases of `NEMA`
