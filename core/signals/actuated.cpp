@@ -122,7 +122,8 @@ private:
 
     bool gap_has_passed(const SignalPhase& own) const {
         const auto extends = [&](const SignalDetector& detector) {
-            const bool is_used = is_at(view_.plan(), detector, kStopDetector) || is_at(view_.plan(), detector, kAdvanceDetector);
+            const bool is_used =
+                is_at(view_.plan(), detector, kStopDetector) || is_at(view_.plan(), detector, kAdvanceDetector);
             return is_used && extends_phase(view_.plan(), detector, present()) && detector.last_occupied_tick >= 0 &&
                    view_.tick() - detector.last_occupied_tick < own.gap_ticks;
         };
@@ -217,7 +218,8 @@ private:
         }
         if ((detector.groups & called.green_groups & ~green_groups) == 0) return false;
         if (is_at(view_.plan(), detector, kStopDetector)) return detector.is_occupied;
-        return is_at(view_.plan(), detector, kAdvanceDetector) && green_groups == 0 && detector.last_crossing_tick > last_end;
+        return is_at(view_.plan(), detector, kAdvanceDetector) && green_groups == 0 &&
+               detector.last_crossing_tick > last_end;
     }
 
     SignalView& view_;

@@ -5,6 +5,21 @@
 
 namespace stopline {
 
+namespace {
+
+// Returns how well a phase serves the lane of a detector, from 0 (not at all) to 4 (all movements are protected).
+int service(const SignalPlan& plan, const SignalDetector& detector, int phase) {
+    if (!plan.lane_detectors.empty()) return extends_phase(plan, detector, phase) ? 4 : 0;
+    const std::uint64_t green = plan.phases.phases[static_cast<std::size_t>(phase)].green_groups;
+    const std::uint64_t protected_groups = plan.phases.rings.phases[static_cast<std::size_t>(phase)].protected_groups;
+    if ((detector.groups & ~protected_groups) == 0) return 4;
+    if ((detector.groups & ~green) == 0) return 3;
+    if ((detector.groups & protected_groups) != 0) return 2;
+    return (detector.groups & green) != 0 ? 1 : 0;
+}
+
+}  // namespace
+
 bool is_at(const SignalPlan& plan, const SignalDetector& detector, std::size_t parameter) {
     constexpr double kTolerance_m = 0.01;
     if (!plan.lane_detectors.empty()) return parameter == kStopDetector && detector.phases != 0;
@@ -16,6 +31,15 @@ bool is_at(const SignalPlan& plan, const SignalDetector& detector, std::size_t p
 bool extends_phase(const SignalPlan& plan, const SignalDetector& detector, int phase) {
     if (!plan.lane_detectors.empty()) return (detector.phases >> phase & 1U) != 0;
     return (detector.groups & plan.phases.phases[static_cast<std::size_t>(phase)].green_groups) != 0;
+}
+
+bool belongs_to_phase(const SignalPlan& plan, const SignalDetector& detector, int phase) {
+    const int own = service(plan, detector, phase);
+    if (own == 0) return false;
+    for (int other = 0; other < static_cast<int>(plan.phases.phases.size()); ++other) {
+        if (service(plan, detector, other) > own) return false;
+    }
+    return true;
 }
 
 std::int64_t decision_ticks(const SignalPlan& plan) {

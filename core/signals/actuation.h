@@ -29,6 +29,11 @@ bool is_at(const SignalPlan& plan, const SignalDetector& detector, std::size_t p
 // extends the phase.
 bool extends_phase(const SignalPlan& plan, const SignalDetector& detector, int phase);
 
+// Returns true if the lane of the detector calls and extends a phase in a ring: no other phase serves the lane better. A
+// phase that protects all movements of the lane serves it best. Next come green for all movements, a protected green for
+// one of them, and green for one of them.
+bool belongs_to_phase(const SignalPlan& plan, const SignalDetector& detector, int phase);
+
 // Returns the ticks between two decisions about the end of a green. Imported controllers decide once a second, as those of
 // SUMO do.
 std::int64_t decision_ticks(const SignalPlan& plan);

@@ -33,7 +33,8 @@ enum : std::size_t { kHasBegun, kSide, kIsCrossing, kRingNumbers };
 
 // Numbers of a ring. kCurrentPhase: -1: none. kLastPlace: place of the last phase on the present side; -1: none.
 // kClearing: groups that show yellow or red after the phase. kMaximumStart: tick of the first call that ends the phase.
-// kPoint: tick of the force-off or yield point.
+// kExtension: the last tick of a decision at which a vehicle covered a detector of the phase. kPoint: tick of the force-off
+// or yield point.
 enum : std::size_t {
     kRingInterval,
     kCurrentPhase,
@@ -42,6 +43,7 @@ enum : std::size_t {
     kLastPlace,
     kClearing,
     kMaximumStart,
+    kExtension,
     kPoint,
     kNumbersOfRing
 };
@@ -87,6 +89,8 @@ private:
     int side() const { return static_cast<int>(memory_[kSide]); }
     const SignalPhase& phase(int number) const { return plan_.phases[index(number)]; }
     const RingPhase& in_ring(int number) const { return rings_.phases[index(number)]; }
+    bool is_imported() const { return !view_.plan().lane_detectors.empty(); }
+    bool is_decision() const { return view_.tick() % decision_ticks(view_.plan()) == 0; }
     bool is_coordinated(int number) const { return rings_.is_coordinated() && in_ring(number).is_coordinated; }
     bool has_green(std::size_t ring) const { return interval(ring) == RingInterval::green; }
     bool is_green(int number) const {
@@ -115,9 +119,7 @@ private:
         begin_side();
     }
 
-    int coordinated_side() const {
-        return in_ring(std::max(rings_.coordinated[0], rings_.coordinated[1])).side;
-    }
+    int coordinated_side() const { return in_ring(std::max(rings_.coordinated[0], rings_.coordinated[1])).side; }
 
     int first_called_side() const {
         for (int number = 0; number < rings_.sides(); ++number) {
@@ -145,7 +147,8 @@ private:
         at(ring, kCurrentPhase) = number;
         at(ring, kFollowingPhase) = -1;
         at(ring, kLastPlace) = in_ring(number).place;
-        at(ring, kMaximumStart) = -1;
+        at(ring, kMaximumStart) = is_imported() ? view_.tick() : -1;
+        at(ring, kExtension) = -1;
         if (rings_.is_coordinated())
             at(ring, kPoint) = view_.tick() + rings_.ticks_to(in_ring(number).force_off, view_.tick());
         for (int group = 0; group < view_.groups(); ++group) show_green_of(ring, group);
@@ -220,13 +223,21 @@ private:
 
     void go_on(std::size_t ring) {
         if (!has_green(ring)) return;
+        if (is_decision() && is_occupied(current(ring))) at(ring, kExtension) = view_.tick();
         const int next = later_phase(ring, clearance(ring));
-        if (next < 0 && crossing_target() < 0) {
-            at(ring, kMaximumStart) = -1;
-            return;
-        }
+        if (next < 0 && crossing_target() < 0) return rest(ring);
         if (at(ring, kMaximumStart) < 0) at(ring, kMaximumStart) = view_.tick();
         if (next >= 0 && may_end(ring)) begin_yellow(ring, next);
+    }
+
+    // The maximum green of the phase begins with the next call. SUMO's maximum begins with the green, and again with the
+    // minimum green while both rings rest.
+    void rest(std::size_t ring) {
+        if (!is_imported()) {
+            at(ring, kMaximumStart) = -1;
+        } else if (may_end(0) && may_end(1)) {
+            at(ring, kMaximumStart) = view_.tick() - phase(current(ring)).min_green_ticks;
+        }
     }
 
     // Ends the greens of both rings if both may end for another side.
@@ -311,7 +322,8 @@ private:
         const RingPhase& coordinated = in_ring(rings_.coordinated[rings_.coordinated[ring] >= 0 ? ring : 1 - ring]);
         if (!is_between_greens(coordinated, start)) return false;
         const std::int64_t to_force_off = rings_.ticks_to(in_ring(number).force_off, start);
-        return to_force_off >= phase(number).min_green_ticks && to_force_off <= rings_.ticks_to(coordinated.start_point, start);
+        return to_force_off >= phase(number).min_green_ticks &&
+               to_force_off <= rings_.ticks_to(coordinated.start_point, start);
     }
 
     // Returns true if the present phase of the ring may end. A ring without a phase need not wait.
@@ -319,9 +331,9 @@ private:
         if (!has_green(ring)) return true;
         const SignalPhase& own = phase(current(ring));
         const std::int64_t shown = elapsed(ring);
-        if (shown < own.min_green_ticks || view_.tick() % decision_ticks(view_.plan()) != 0) return false;
+        if (shown < own.min_green_ticks || !is_decision()) return false;
         if (is_coordinated(current(ring))) return may_yield(ring);
-        const bool has_gap = own.recall != Recall::maximum && gap_has_passed(current(ring));
+        const bool has_gap = own.recall != Recall::maximum && gap_has_passed(ring);
         if (rings_.is_coordinated()) return has_gap || shown >= own.green_ticks || view_.tick() >= at(ring, kPoint);
         const std::int64_t maximum = std::max(own.max_green_ticks, own.min_green_ticks);
         if (own.recall == Recall::maximum) return shown >= maximum;
@@ -341,20 +353,32 @@ private:
 
     // --- Detectors --------------------------------------------------------------------------------------------------
 
-    bool gap_has_passed(int number) const {
+    // Returns true if no vehicle has extended the green for the gap. Imported signals see vehicles at decisions only.
+    bool gap_has_passed(std::size_t ring) const {
+        const int number = current(ring);
+        if (is_imported())
+            return at(ring, kExtension) < 0 || view_.tick() - at(ring, kExtension) >= phase(number).gap_ticks;
         const auto detectors = view_.detectors();
         return std::none_of(detectors.begin(), detectors.end(), [&](const SignalDetector& detector) {
             return detector.last_occupied_tick >= 0 &&
                    view_.tick() - detector.last_occupied_tick < phase(number).gap_ticks && is_used(detector) &&
-                   belongs_to(detector, number);
+                   belongs_to_phase(view_.plan(), detector, number);
         });
+    }
+
+    // Returns true if a vehicle covers a detector of an imported phase.
+    bool is_occupied(int number) const {
+        const auto detectors = view_.detectors();
+        return is_imported() && std::any_of(detectors.begin(), detectors.end(), [&](const SignalDetector& detector) {
+                   return detector.is_occupied && belongs_to_phase(view_.plan(), detector, number);
+               });
     }
 
     bool has_call(int number) const {
         if (phase(number).recall != Recall::off || is_coordinated(number)) return true;
         const auto detectors = view_.detectors();
         return std::any_of(detectors.begin(), detectors.end(), [&](const SignalDetector& detector) {
-            return is_waiting(detector) && belongs_to(detector, number);
+            return is_waiting(detector) && belongs_to_phase(view_.plan(), detector, number);
         });
     }
 
@@ -373,28 +397,6 @@ private:
 
     bool is_used(const SignalDetector& detector) const {
         return is_at(view_.plan(), detector, kStopDetector) || is_at(view_.plan(), detector, kAdvanceDetector);
-    }
-
-    // Returns true if the lane of the detector calls and extends the phase.
-    bool belongs_to(const SignalDetector& detector, int number) const {
-        return service(detector, number) > 0 && service(detector, number) == best_service(detector);
-    }
-    // Returns how well a phase serves the lane of a detector, from 0 (not at all) to 4 (all movements are protected).
-    int service(const SignalDetector& detector, int number) const {
-        if (!view_.plan().lane_detectors.empty()) return extends_phase(view_.plan(), detector, number) ? 4 : 0;
-        const std::uint64_t green = phase(number).green_groups;
-        const std::uint64_t protected_groups = in_ring(number).protected_groups;
-        if ((detector.groups & ~protected_groups) == 0) return 4;
-        if ((detector.groups & ~green) == 0) return 3;
-        if ((detector.groups & protected_groups) != 0) return 2;
-        return (detector.groups & green) != 0 ? 1 : 0;
-    }
-    int best_service(const SignalDetector& detector) const {
-        int best = 0;
-        for (int number = 0; number < static_cast<int>(plan_.phases.size()); ++number) {
-            best = std::max(best, service(detector, number));
-        }
-        return best;
     }
 
     SignalView& view_;
@@ -420,7 +422,8 @@ std::int64_t step_rings(SignalView& view) {
 NominalCycle nominal_ring_cycle(const SignalSettings& settings, int /*groups*/) {
     if (!settings.has_phases()) return {settings.intersection_cycle_s(), settings.green_s};
     NominalCycle nominal{settings.cycle_s > 0.0 ? settings.cycle_s : ring_cycle_s(settings), 0.0};
-    for (const PhaseSettings& phase : settings.phases) nominal.longest_green_s = std::max(nominal.longest_green_s, phase.green_s);
+    for (const PhaseSettings& phase : settings.phases)
+        nominal.longest_green_s = std::max(nominal.longest_green_s, phase.green_s);
     return nominal;
 }
 

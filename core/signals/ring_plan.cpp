@@ -21,7 +21,8 @@ std::vector<int> sides_of(const std::vector<PhaseSettings>& phases) {
     std::map<int, int> side_of_barrier;
     std::vector<int> sides;
     for (const PhaseSettings& phase : phases) {
-        sides.push_back(side_of_barrier.try_emplace(phase.barrier, static_cast<int>(side_of_barrier.size())).first->second);
+        sides.push_back(
+            side_of_barrier.try_emplace(phase.barrier, static_cast<int>(side_of_barrier.size())).first->second);
     }
     return sides;
 }
@@ -107,8 +108,8 @@ std::vector<ScheduledPhase> schedule_of(const PhasePlan& plan, std::size_t ring,
     std::int64_t start = 0;
     for (int side = 0; side < rings.sides(); ++side) {
         const auto& order = rings.order[ring][index_of(side)];
-        const std::int64_t side_end = start + std::max(ticks_of(rings.order[0][index_of(side)]),
-                                                       ticks_of(rings.order[1][index_of(side)]));
+        const std::int64_t side_end =
+            start + std::max(ticks_of(rings.order[0][index_of(side)]), ticks_of(rings.order[1][index_of(side)]));
         for (const int k : order) {
             const SignalPhase& phase = plan.phases[index_of(k)];
             const std::int64_t end = k == order.back() ? side_end : start + phase.ticks();
@@ -152,7 +153,8 @@ RingPlan make_ring_plan(const SignalSettings& settings, std::span<const std::str
         plan.phases[k].is_coordinated = phase.is_coordinated();
         if (phase.is_coordinated()) plan.coordinated[plan.phases[k].ring] = static_cast<int>(k);
         for (std::size_t group = 0; group < movements.size(); ++group) {
-            if (has_protected_green(phase, movements[group])) plan.phases[k].protected_groups |= std::uint64_t{1} << group;
+            if (has_protected_green(phase, movements[group]))
+                plan.phases[k].protected_groups |= std::uint64_t{1} << group;
         }
     }
     set_points(settings.phases, step_s, plan);

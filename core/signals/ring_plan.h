@@ -40,10 +40,10 @@ struct RingPlan {
     std::vector<RingPhase> phases;  // [phase of PhasePlan::phases]
     // [ring][side] phases in the order of their greens
     std::array<std::vector<std::vector<int>>, kRings> order;
-    std::vector<RingPair> pairs;        // all pairs that can occur
+    std::vector<RingPair> pairs;                  // all pairs that can occur
     std::array<int, kRings> coordinated{-1, -1};  // coordinated phase of each ring; -1: none
-    std::int64_t cycle_ticks = 0;       // background cycle; 0: no coordination
-    std::int64_t cycle_start_tick = 0;  // start of a background cycle
+    std::int64_t cycle_ticks = 0;                 // background cycle; 0: no coordination
+    std::int64_t cycle_start_tick = 0;            // start of a background cycle
 
     bool empty() const { return phases.empty(); }
     bool is_coordinated() const { return cycle_ticks > 0; }

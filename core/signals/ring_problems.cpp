@@ -76,9 +76,10 @@ private:
             sum_s += std::max(ring_s[1], ring_s[2]);
             if (ring_s[1] == 0.0 || ring_s[2] == 0.0 || std::abs(ring_s[1] - ring_s[2]) < kRounding_s) continue;
             add("phases",
-                fmt::format("with coordination both rings need the same time between barriers: the phases with barrier {} "
-                            "take {:g} s in ring 1 and {:g} s in ring 2 (green, yellow and all_red)",
-                            barrier, ring_s[1], ring_s[2]));
+                fmt::format(
+                    "with coordination both rings need the same time between barriers: the phases with barrier {} "
+                    "take {:g} s in ring 1 and {:g} s in ring 2 (green, yellow and all_red)",
+                    barrier, ring_s[1], ring_s[2]));
         }
         if (std::abs(sum_s - settings_.cycle_s) < kRounding_s) return;
         add("cycle", fmt::format("{:g} s is not the sum of the phases of a ring, {:g} s (green, yellow and all_red)",
@@ -94,9 +95,10 @@ private:
                 static_cast<double>(plan.phases[k].force_off - plan.phases[k].start_point) * kTick_s;
             if (phases_[k].min_green_s <= longest_s + kRounding_s) continue;
             add(field(k, "min_green"),
-                fmt::format("{:g} s is longer than the green of the phase in coordination, {:g} s (the last phases before "
-                            "a barrier end together)",
-                            phases_[k].min_green_s, longest_s));
+                fmt::format(
+                    "{:g} s is longer than the green of the phase in coordination, {:g} s (the last phases before "
+                    "a barrier end together)",
+                    phases_[k].min_green_s, longest_s));
         }
     }
 

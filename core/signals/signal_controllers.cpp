@@ -102,9 +102,8 @@ SignalPlan make_phase_signal_plan(const SignalSettings& settings, int first_grou
     PhasePlan phases = make_phase_plan(settings, movements, step_s);
     if (find_signal_controller(settings.controller).runs_rings) {
         phases.rings = make_ring_plan(settings, movements, step_s);
-        SignalPlan plan =
-            make_signal_plan(settings, first_group, make_ring_programmes(phases, static_cast<int>(movements.size())),
-                             step_s);
+        SignalPlan plan = make_signal_plan(settings, first_group,
+                                           make_ring_programmes(phases, static_cast<int>(movements.size())), step_s);
         plan.phases = std::move(phases);
         return plan;
     }

@@ -18,10 +18,10 @@ struct SignalController;  // signals/signal_controller.h
 // A detector that an imported programme gives for a lane and some phases. It takes the place of the detectors that the
 // parameters of a controller describe.
 struct LaneDetector {
-    int lane = -1;              // lane of the graph
-    double to_line_m = 0.0;     // distance from the upstream end of the detector to the stop line
-    double length_m = 0.0;      // length of the detection zone
-    std::uint64_t phases = 0;   // phases that the detector calls and extends; bit k: phase k
+    int lane = -1;             // lane of the graph
+    double to_line_m = 0.0;    // distance from the upstream end of the detector to the stop line
+    double length_m = 0.0;     // length of the detection zone
+    std::uint64_t phases = 0;  // phases that the detector calls and extends; bit k: phase k
 };
 
 // The signal of one intersection. The groups of a signal are numbered from 0. SignalPlan::groups maps these numbers to
@@ -36,7 +36,7 @@ struct SignalPlan {
     std::vector<double> values;  // parameters in the order of SignalController::parameters, SI units
     double step_s = 0.0;
     std::vector<LaneDetector> lane_detectors;  // empty: SignalController::detectors_m says where the detectors are
-    PhasePlan phases;                      // empty: the signal has no phases
+    PhasePlan phases;                          // empty: the signal has no phases
     Timeline<int> phase_at;                // phase of the fixed-time programme, see PhaseTimelines; empty: no phases
     std::int64_t nominal_cycle_ticks = 0;  // cycle for measures and rules that need one; see NominalCycle
 };

@@ -22,8 +22,8 @@ bool has_signal(const LaneGraph& graph, const Lane& lane) {
 
 // Writes a phase of a signal that reacts to traffic, with the attributes that the import has read.
 void write_controlled_phase(XmlFile& xml, const SumoSignal& signal, const SumoPhase& phase) {
-    xml.add(R"(        <phase duration="{:.3f}" state="{}" minDur="{:.3f}" maxDur="{:.3f}")", phase.duration_s, phase.state,
-            phase.min_s, phase.max_s);
+    xml.add(R"(        <phase duration="{:.3f}" state="{}" minDur="{:.3f}" maxDur="{:.3f}")", phase.duration_s,
+            phase.state, phase.min_s, phase.max_s);
     if (signal.type == "NEMA") {
         xml.add(R"( name="{}" vehext="{:.3f}" yellow="{:.3f}" red="{:.3f}")", escape_xml(phase.name), phase.extension_s,
                 phase.yellow_s, phase.red_s);
@@ -41,8 +41,8 @@ void write_lights(const std::filesystem::path& file, const SumoNetwork& network)
     for (const int number : used_signals) {
         if (number < 0) continue;
         const SumoSignal& signal = network.net.signals[at(number)];
-        xml.add("    <tlLogic id=\"{}\" type=\"{}\" programID=\"stopline\" offset=\"{:.3f}\">\n",
-                escape_xml(signal.id), signal.controller == nullptr ? "static" : signal.type, signal.offset_s);
+        xml.add("    <tlLogic id=\"{}\" type=\"{}\" programID=\"stopline\" offset=\"{:.3f}\">\n", escape_xml(signal.id),
+                signal.controller == nullptr ? "static" : signal.type, signal.offset_s);
         if (signal.controller != nullptr) {
             for (const auto& [name, value] : signal.parameters)
                 xml.add("        <param key=\"{}\" value=\"{}\"/>\n", escape_xml(name), escape_xml(value));

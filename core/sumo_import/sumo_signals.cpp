@@ -109,13 +109,12 @@ SignalPlans make_sumo_signals(const SumoNetwork& network, double step_s) {
     }
     SignalPlans plans;
     for (auto& [number, parts] : by_signal) {
-        const SumoSignal* const signal =
-            number < 0 ? nullptr : &network.net.signals[static_cast<std::size_t>(number)];
+        const SumoSignal* const signal = number < 0 ? nullptr : &network.net.signals[static_cast<std::size_t>(number)];
         if (signal == nullptr || signal->controller == nullptr) {
             plans.add(fixed_time_plan(std::move(parts.groups), std::move(parts.programmes)));
         } else {
-            plans.add(controlled_plan(*signal, std::move(parts.groups), parts.links, std::move(parts.programmes),
-                                      step_s));
+            plans.add(
+                controlled_plan(*signal, std::move(parts.groups), parts.links, std::move(parts.programmes), step_s));
         }
     }
     return plans;

@@ -139,8 +139,8 @@ TEST(ActuatedSignals, AreChecked) {
 // --- Rings ----------------------------------------------------------------------------------------------------------
 
 std::string ring_phase(int ring, int barrier, const std::string& movements, const std::string& more = "") {
-    return "  - {ring: " + std::to_string(ring) + ", barrier: " + std::to_string(barrier) + ", protected: [" + movements +
-           "], green: 20 s" + more + "}\n";
+    return "  - {ring: " + std::to_string(ring) + ", barrier: " + std::to_string(barrier) + ", protected: [" +
+           movements + "], green: 20 s" + more + "}\n";
 }
 
 // Lines 7 and 8 of the file, then a line for each phase.
@@ -160,10 +160,10 @@ TEST(DualRingSignals, AreAccepted) {
 TEST(DualRingSignals, ProtectedGreensOfBothRingsMustNotConflict) {
     std::string phases = ring_phases();
     // Phase 7 gets a movement that conflicts with phase 6, which can run together with it.
-    phases.replace(phases.find("north_left"), 10, "east_left, north_left");
+    phases.replace(phases.find("north_left"), 10, "north_left, west_right");
     EXPECT_TRUE(contains(error_of_signal(phases),
-                         "test.yaml:15:41: field 'signal.phases[6].protected[0]': the protected movements "
-                         "north_straight and east_left of phases 6 and 7 conflict"));
+                         "test.yaml:15:52: field 'signal.phases[6].protected[1]': the protected movements "
+                         "north_straight and west_right of phases 6 and 7 conflict"));
     // The same movements in one phase are reported once.
     phases = ring_phases();
     phases.replace(phases.find("west_left"), 9, "west_left, east_straight");
@@ -178,7 +178,7 @@ TEST(DualRingSignals, CoordinationIsChecked) {
     EXPECT_TRUE(contains(error_of_signal("  cycle: 100 s\n" + ring_phases(", coordinated: on")),
                          "field 'signal.cycle': 100 s is not the sum of the phases of a ring, 112 s"));
     EXPECT_TRUE(contains(error_of_signal(ring_phases(", coordinated: on")),
-                         "test.yaml:10:86: field 'signal.phases[1].coordinated': has no effect without signal.cycle"));
+                         "test.yaml:10:93: field 'signal.phases[1].coordinated': has no effect without signal.cycle"));
     EXPECT_TRUE(contains(error_of_signal("  cycle: 112.005 s\n" + ring_phases(", coordinated: on")),
                          "field 'signal.cycle': 112.005 s is not a whole number of steps"));
 }
@@ -186,10 +186,10 @@ TEST(DualRingSignals, CoordinationIsChecked) {
 TEST(DualRingSignals, OtherControllersHaveNoRings) {
     std::string phases = ring_phases();
     phases.replace(phases.find("dual_ring"), 9, "actuated");
-    EXPECT_TRUE(contains(error_of_signal(phases),
-                         "field 'signal.phases[0].ring': has no effect with the controller actuated"));
-    EXPECT_TRUE(contains(error_of_signal(ring_phases() + ring_phase(3, 1, "west_left")),
-                         "field 'signal.phases[8].ring'"));
+    EXPECT_TRUE(
+        contains(error_of_signal(phases), "field 'signal.phases[0].ring': has no effect with the controller actuated"));
+    EXPECT_TRUE(
+        contains(error_of_signal(ring_phases() + ring_phase(3, 1, "west_left")), "field 'signal.phases[8].ring'"));
     EXPECT_TRUE(contains(error_of_signal("  controller: dual_ring\n"), "'dual_ring' needs signal.phases"));
     EXPECT_TRUE(contains(error_of_signal("  controller: dual_ring\n  programmes:\n  - {from: 0 h, phases: "
                                          "[{protected: west_left, green: 8 s}]}\n"),

@@ -109,18 +109,24 @@ bool cross_paths(std::size_t a, std::size_t b) {
 
 struct Counts {
     int phases = 0;
-    int pairs_of_lefts = 0;       // starts of a phase after which both rings have a left turn
-    int permissive_greens = 0;    // ticks with green for a left turn and for traffic with priority
+    int pairs_of_lefts = 0;     // starts of a phase after which both rings have a left turn
+    int permissive_greens = 0;  // ticks with green for a left turn and for traffic with priority
     int coordinated_cycles = 0;
-    int early_coordinated = 0;    // coordinated greens that begin before their point
+    int early_coordinated = 0;  // coordinated greens that begin before their point
     int served_calls = 0;
 };
 
 class RingCheck {
 public:
     RingCheck(const Junction& junction, const SignalSettings& settings)
-        : junction_(junction), settings_(settings), before_(junction.state().lights), since_(8, kLongAgo), red_since_(8, kLongAgo),
-          red_ticks_(8, 0), waiting_since_(8, -1), last_(pair_of(junction)) {
+        : junction_(junction),
+          settings_(settings),
+          before_(junction.state().lights),
+          since_(8, kLongAgo),
+          red_since_(8, kLongAgo),
+          red_ticks_(8, 0),
+          waiting_since_(8, -1),
+          last_(pair_of(junction)) {
         for (const PhaseSettings& phase : settings.phases) {
             longest_ticks_ += to_ticks(phase.total_s(), kStep_s);
         }
@@ -143,7 +149,8 @@ private:
     static constexpr std::int64_t kLongAgo = std::numeric_limits<std::int64_t>::min() / 2;
     const SignalPhase& phase(int number) const { return junction_.phases().phases[static_cast<std::size_t>(number)]; }
     bool has_protected(int number, std::size_t group) const {
-        return number >= 0 && has_protected_green(settings_.phases[static_cast<std::size_t>(number)], kMovements[group]);
+        return number >= 0 &&
+               has_protected_green(settings_.phases[static_cast<std::size_t>(number)], kMovements[group]);
     }
     // Returns true if the pair protects neither of two crossing movements from the other one.
     bool may_be_together(const RingPair& pair, std::size_t a, std::size_t b) const {
@@ -169,14 +176,17 @@ private:
         const Light now = junction_.light(group);
         if (before_[group] == Light::green) {
             ASSERT_EQ(now, Light::yellow) << kMovements[group];
-            ASSERT_TRUE(any_phase(group, [&](int number, std::size_t ring) {
-                return tick - start_[ring] >= phase(number).min_green_ticks;
-            })) << "minimum of " << kMovements[group] << " at tick " << tick;
+            ASSERT_TRUE(any_phase(
+                group,
+                [&](int number, std::size_t ring) { return tick - start_[ring] >= phase(number).min_green_ticks; }))
+                << "minimum of " << kMovements[group] << " at tick " << tick;
         } else if (before_[group] == Light::yellow) {
-            ASSERT_TRUE(any_phase(group, [&](int number, std::size_t /*ring*/) {
-                red_ticks_[group] = phase(number).all_red_ticks;
-                return tick - since_[group] == phase(number).yellow_ticks;
-            })) << "yellow of " << kMovements[group] << " at tick " << tick;
+            ASSERT_TRUE(any_phase(group,
+                                  [&](int number, std::size_t /*ring*/) {
+                                      red_ticks_[group] = phase(number).all_red_ticks;
+                                      return tick - since_[group] == phase(number).yellow_ticks;
+                                  }))
+                << "yellow of " << kMovements[group] << " at tick " << tick;
             red_since_[group] = tick;
             // Without a red time the group can have green at once, in a phase of the other ring.
             ASSERT_TRUE(now == Light::red || red_ticks_[group] == 0) << kMovements[group];
@@ -240,7 +250,8 @@ private:
             const std::int64_t to_yield = rings.ticks_to(own.force_off, tick);
             if (to_yield == 0 || to_yield > own.force_off - own.start_point) continue;
             ASSERT_EQ(pair.phase[ring], number) << "coordinated phase of ring " << ring << " at tick " << tick;
-            const std::size_t group = movement(settings_.phases[static_cast<std::size_t>(number)].protected_movements[0]);
+            const std::size_t group =
+                movement(settings_.phases[static_cast<std::size_t>(number)].protected_movements[0]);
             ASSERT_EQ(junction_.light(group), Light::green) << "at tick " << tick;
             if (rings.ticks_to(own.start_point, tick) != 0) continue;
             ++counts.coordinated_cycles;
@@ -251,7 +262,8 @@ private:
     // A vehicle at a red stop line gets green within bounded time.
     void check_waits(Counts& counts) {
         for (std::size_t group = 0; group < 8; ++group) {
-            const bool waits = junction_.light(group) != Light::green && junction_.detectors()[3 * group + 1].is_occupied;
+            const bool waits =
+                junction_.light(group) != Light::green && junction_.detectors()[3 * group + 1].is_occupied;
             if (!waits) {
                 counts.served_calls += waiting_since_[group] >= 0 ? 1 : 0;
                 waiting_since_[group] = -1;
@@ -279,7 +291,8 @@ private:
 class RandomTraffic {
 public:
     RandomTraffic(Random& random, std::size_t lanes) : random_(random) {
-        for (std::size_t lane = 0; lane < lanes; ++lane) arrival_.push_back(std::pow(10.0, uniform(random, -3.0, -0.7)));
+        for (std::size_t lane = 0; lane < lanes; ++lane)
+            arrival_.push_back(std::pow(10.0, uniform(random, -3.0, -0.7)));
     }
 
     void set_detectors(Junction& junction) {

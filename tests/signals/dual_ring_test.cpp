@@ -43,7 +43,8 @@ TEST(DualRing, RecallServesAllPhasesInTheOrderOfTheFile) {
     SignalSettings settings = eight_phases(5.0, 20.0);
     set_all(settings, "minimum");
     Junction junction(settings, kMovements);
-    const std::vector<Begin> expected{{10, {{0, 4}}}, {110, {{1, 5}}}, {210, {{2, 6}}}, {310, {{3, 7}}}, {410, {{0, 4}}}};
+    const std::vector<Begin> expected{
+        {10, {{0, 4}}}, {110, {{1, 5}}}, {210, {{2, 6}}}, {310, {{3, 7}}}, {410, {{0, 4}}}};
     EXPECT_EQ(pairs_within(junction, 45.0), expected);
     // Ring 2 serves its left turns last (lagging).
     std::swap(settings.phases[4], settings.phases[5]);
@@ -194,7 +195,8 @@ TEST(DualRing, SettingsAreChecked) {
     settings.phases[5].coordinated = "off";
     EXPECT_EQ(problem_of(settings), "cycle: coordination needs a phase with 'coordinated: on' in ring 2");
     settings.phases[7].coordinated = "on";
-    EXPECT_EQ(problem_of(settings), "phases[7].coordinated: the coordinated phases of both rings need the same barrier");
+    EXPECT_EQ(problem_of(settings),
+              "phases[7].coordinated: the coordinated phases of both rings need the same barrier");
     settings = coordinated_phases();
     settings.phases[0].coordinated = "on";
     EXPECT_EQ(problem_of(settings), "phases[1].coordinated: ring 1 already has a coordinated phase");
@@ -203,7 +205,8 @@ TEST(DualRing, SettingsAreChecked) {
     EXPECT_NE(problem_of(settings).find("barrier 1 take 55 s in ring 1 and 50 s in ring 2"), std::string::npos);
     settings = coordinated_phases();
     settings.cycle_s = 90.0;
-    EXPECT_NE(problem_of(settings).find("cycle: 90 s is not the sum of the phases of a ring, 100 s"), std::string::npos);
+    EXPECT_NE(problem_of(settings).find("cycle: 90 s is not the sum of the phases of a ring, 100 s"),
+              std::string::npos);
     settings = coordinated_phases();
     settings.phases[3].min_green_s = 21.0;
     EXPECT_NE(problem_of(settings).find("phases[3].min_green: 21 s is longer than the green"), std::string::npos);

@@ -80,24 +80,24 @@ TEST(SumoControllers, PhasesFollowNext) {
     std::string phases = actuated_phases();
     // Two more phases stand behind the others. The first red leads to them.
     phases = replaced(phases, "duration=\"1\" state", "duration=\"1\" next=\"5\" state");
-    phases += "        <phase duration=\"9\" minDur=\"4\" maxDur=\"10\" state=\"Grrr\" name=\"extra\"/>\n"
-              "        <phase duration=\"3\" state=\"yrrr\" next=\"0\"/>\n";
+    phases +=
+        "        <phase duration=\"9\" minDur=\"4\" maxDur=\"10\" state=\"Grrr\" name=\"extra\"/>\n"
+        "        <phase duration=\"3\" state=\"yrrr\" next=\"0\"/>\n";
     const SumoNetwork network = network_of(net_with("actuated", phases));
     const SignalPlans plans = make_sumo_signals(network, kStep_s);
     ASSERT_EQ(plans[1].phases.phases.size(), 2U);
     EXPECT_EQ(plans[1].phases.phases[1].min_green_ticks, 40);
-    const SumoNetwork several =
-        network_of(net_with("actuated", replaced(phases, "next=\"5\"", "next=\"5 3\"")));
+    const SumoNetwork several = network_of(net_with("actuated", replaced(phases, "next=\"5\"", "next=\"5 3\"")));
     EXPECT_TRUE(warns(several, "'next' with several phases"));
 }
 
 TEST(SumoControllers, WhatIsNotSupportedIsNamed) {
-    const SumoNetwork network = network_of(net_with(
-        "actuated", replaced(actuated_phases(), "<param key=\"max-gap\"", "<param key=\"linkMaxDur:1\" value=\"3\"/><param key=\"max-gap\"")));
+    const SumoNetwork network =
+        network_of(net_with("actuated", replaced(actuated_phases(), "<param key=\"max-gap\"",
+                                                 "<param key=\"linkMaxDur:1\" value=\"3\"/><param key=\"max-gap\"")));
     EXPECT_TRUE(warns(network, "the parameter 'linkMaxDur:1' of signals of type 'actuated' is ignored"));
     // A link that loses green without yellow.
-    const SumoNetwork abrupt =
-        network_of(net_with("actuated", replaced(actuated_phases(), "\"ryyy\"", "\"ryrr\"")));
+    const SumoNetwork abrupt = network_of(net_with("actuated", replaced(actuated_phases(), "\"ryyy\"", "\"ryrr\"")));
     EXPECT_TRUE(warns(abrupt, "the phases between two greens of the actuated signal 'J' are not yellow"));
     EXPECT_TRUE(warns(abrupt, "signals of type 'actuated' run as fixed-time signals"));
     EXPECT_TRUE(make_sumo_signals(abrupt, kStep_s)[1].controller->follows_programme);
@@ -105,8 +105,12 @@ TEST(SumoControllers, WhatIsNotSupportedIsNamed) {
     EXPECT_TRUE(warns(other, "signals of type 'delay_based' run as fixed-time signals"));
     const SumoFiles files;
     EXPECT_EQ(testing::refusal([&] {
-                  make_sumo_network(read_sumo_net(files.write("my.net.xml", net_with("actuated", replaced(actuated_phases(), "value=\"2.5\"", "value=\"long\"")))), 2.0);
-              }).find("my.net.xml:") , 0U);
+                  make_sumo_network(read_sumo_net(files.write(
+                                        "my.net.xml", net_with("actuated", replaced(actuated_phases(), "value=\"2.5\"",
+                                                                                    "value=\"long\"")))),
+                                    2.0);
+              }).find("my.net.xml:"),
+              0U);
 }
 
 // Phase 1 is the left turn of w_in, phase 2 its straight movement, phase 4 the traffic from the south.

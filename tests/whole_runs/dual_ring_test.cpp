@@ -78,7 +78,8 @@ TEST(DualRingRuns, BothFidelitiesHaveNoViolations) {
         for (const char* const cycle : {"signal.cycle=90 s", "signal.cycle=0 s"}) {
             std::vector<std::string> settings{fidelity, "measure.cycles=3", "measure.warmup_cycles=1"};
             if (std::string(cycle) == "signal.cycle=0 s") {
-                settings.insert(settings.end(), {cycle, "signal.phases[1].coordinated=off", "signal.phases[5].coordinated=off"});
+                settings.insert(settings.end(),
+                                {cycle, "signal.phases[1].coordinated=off", "signal.phases[5].coordinated=off"});
             }
             const IntersectionResult result = run_intersection(dual_ring(settings), 0);
             EXPECT_TRUE(result.violations.none()) << fidelity << ", " << cycle;
@@ -90,14 +91,16 @@ TEST(DualRingRuns, BothFidelitiesHaveNoViolations) {
 
 TEST(DualRingRuns, AGridHasTheSameHashWithSeveralThreads) {
     for (const char* const fidelity : {"fidelity=meso", "fidelity=full"}) {
-        const Scenario rings = dual_ring({fidelity, "network.kind=grid", "network.grid={columns: 2, rows: 2}",
-                                          "duration=240 s", "measure={baseline: CDG, window: 120 s}", "signal.offset=12 s"});
+        const Scenario rings =
+            dual_ring({fidelity, "network.kind=grid", "network.grid={columns: 2, rows: 2}", "duration=240 s",
+                       "measure={baseline: CDG, window: 120 s}", "signal.offset=12 s"});
         const NetworkResult one = run_network(rings, 0);
         EXPECT_TRUE(one.violations.none());
         EXPECT_EQ(one.state_hash, run_network(rings, 0, {}, 2).state_hash) << fidelity;
         EXPECT_EQ(one.state_hash, run_network(rings, 0, {}, 4).state_hash) << fidelity;
-        const Scenario other = dual_ring({fidelity, "network.kind=grid", "network.grid={columns: 2, rows: 2}",
-                                          "duration=240 s", "measure={baseline: CDG, window: 120 s}", "signal.offset=13 s"});
+        const Scenario other =
+            dual_ring({fidelity, "network.kind=grid", "network.grid={columns: 2, rows: 2}", "duration=240 s",
+                       "measure={baseline: CDG, window: 120 s}", "signal.offset=13 s"});
         EXPECT_NE(one.state_hash, run_network(other, 0).state_hash) << fidelity;
     }
 }

@@ -152,10 +152,9 @@ private:
                 if (one.is_protected != two.is_protected || !conflicts_.contains({one.name, two.name})) continue;
                 if (one.is_protected) {
                     has_conflict = true;
-                    check_.error(two.field,
-                                 fmt::format("the protected movements {} and {} of {} conflict: make one "
-                                             "of them permissive, or give them different phases",
-                                             one.name, two.name, phases));
+                    check_.error(two.field, fmt::format("the protected movements {} and {} of {} conflict: make one "
+                                                        "of them permissive, or give them different phases",
+                                                        one.name, two.name, phases));
                 } else if (!yields_by_turn(one.turn, two.turn) && !yields_by_turn(two.turn, one.turn)) {
                     has_conflict = true;
                     check_.error(two.field, fmt::format("the permissive movements {} and {} of {} conflict, and "
@@ -273,8 +272,8 @@ void check_phases(const Scenario& scenario, Checker& check) {
         return check.error("signal.controller", fmt::format("'{}' cannot run phases", signal.controller));
     }
     if (find_signal_controller(signal.controller).runs_rings && !signal.programmes.empty()) {
-        return check.error("signal.programmes", fmt::format("'{}' has a single programme: use signal.phases",
-                                                            signal.controller));
+        return check.error("signal.programmes",
+                           fmt::format("'{}' has a single programme: use signal.phases", signal.controller));
     }
     refuse_stage_times(check);
     PhaseChecker phases(scenario, check);

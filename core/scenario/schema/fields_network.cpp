@@ -108,11 +108,12 @@ const Table& phase_table() {
             whole_number<&S::ring>("ring", {1, 2}, "controller dual_ring: ring of the phase"),
             whole_number<&S::barrier>("barrier", {1, 2},
                                       "controller dual_ring: phases of both rings with the same number run together"),
-            choice<&S::dual_entry>("dual_entry", {"off", "on"}, "controller dual_ring: the phase is served without a call if the other "
-                                                 "ring has a call for the same barrier"),
+            choice<&S::dual_entry>("dual_entry", {"off", "on"},
+                                   "controller dual_ring: the phase is served without a call if the other "
+                                   "ring has a call for the same barrier"),
             choice<&S::coordinated>("coordinated", {"off", "on"},
-                                       "controller dual_ring with signal.cycle: the green of this phase repeats with "
-                                       "the cycle"),
+                                    "controller dual_ring with signal.cycle: the green of this phase repeats with "
+                                    "the cycle"),
         },
         [](const S& s, Checker& check) {
             if (s.min_green_s <= s.longest_green_s() || !check.given("min_green")) return;

@@ -23,9 +23,9 @@ void set_sumo_controllers(SumoNet& net) {
             signal.controller->file_phases = file_phases;
             continue;
         }
-        net.warnings.note(signal.where,
-                          fmt::format("signals of type '{}' run as fixed-time signals with the durations of the file",
-                                      signal.type));
+        net.warnings.note(
+            signal.where,
+            fmt::format("signals of type '{}' run as fixed-time signals with the durations of the file", signal.type));
     }
 }
 
@@ -90,8 +90,7 @@ void place_actuated(const SumoSignal& signal, const ControlledLane& lane, SumoCo
         const std::string& state = controller.states[k];
         if (phase.min_green_s >= phase.max_green_s) continue;
         if (has_letter(lane, state, 'G') || has_letter(lane, state, 'g')) {
-            detector.to_line_m =
-                std::min(detector.to_line_m, (phase.min_green_s / passing_s + 0.5) * kVehicleSpace_m);
+            detector.to_line_m = std::min(detector.to_line_m, (phase.min_green_s / passing_s + 0.5) * kVehicleSpace_m);
         }
         if (extends(lane, controller, state, graph)) detector.phases |= std::uint64_t{1} << k;
     }
@@ -100,8 +99,8 @@ void place_actuated(const SumoSignal& signal, const ControlledLane& lane, SumoCo
 
 void place_nema(const SumoSignal& signal, const ControlledLane& lane, SumoController& controller) {
     const bool is_left_lane = lane.connections.size() == 1 && lane.connections[0]->source->dir == 'l';
-    const double length_m = sumo_parameter(
-        signal, is_left_lane ? "detector-length-leftTurnLane" : "detector-length", 20.0);
+    const double length_m =
+        sumo_parameter(signal, is_left_lane ? "detector-length-leftTurnLane" : "detector-length", 20.0);
     LaneDetector detector{lane.lane, length_m, length_m, 0};
     for (std::size_t k = 0; k < controller.states.size(); ++k) {
         if (has_letter(lane, controller.states[k], 'G')) detector.phases |= std::uint64_t{1} << k;
@@ -138,7 +137,8 @@ void place_sumo_detectors(SumoNetwork& network, const std::vector<BuiltConnectio
         if (detector.to_line_m <= longest_m) continue;
         detector.to_line_m = longest_m;
         detector.length_m = std::min(detector.length_m, longest_m);
-        network.net.warnings.note(signal.where, "the lane of a detector is too short: the detector begins with the lane");
+        network.net.warnings.note(signal.where,
+                                  "the lane of a detector is too short: the detector begins with the lane");
     }
 }
 

@@ -39,8 +39,8 @@ const SumoPhase& phase_with(const SumoSignal& signal, int number) {
     for (const SumoPhase& phase : signal.phases) {
         if (phase.name == std::to_string(number)) return phase;
     }
-    throw InputError(fmt::format("{}: the rings name the phase {}, but no phase has name=\"{}\"", signal.where, number,
-                                 number));
+    throw InputError(
+        fmt::format("{}: the rings name the phase {}, but no phase has name=\"{}\"", signal.where, number, number));
 }
 
 // Adds the phases of a ring. Its first side ends with the first phase that is a barrier phase or a coordinated one.
@@ -83,8 +83,8 @@ std::string combined(const std::string& first, const std::string& second) {
 // Replaces the phases by all pairs, in the order of RingPlan::pairs. Their durations add up to the cycle.
 void set_pairs(SumoSignal& signal, SumoController& controller) {
     const RingPlan rings = make_ring_plan(controller.settings, {}, 1.0);
-    const double cycle_s = controller.settings.cycle_s > 0.0 ? controller.settings.cycle_s
-                                                             : ring_cycle_s(controller.settings);
+    const double cycle_s =
+        controller.settings.cycle_s > 0.0 ? controller.settings.cycle_s : ring_cycle_s(controller.settings);
     std::vector<SumoPhase> phases;
     for (const RingPair& pair : rings.pairs) {
         std::string state(signal.phases[0].state.size(), 'r');
@@ -118,9 +118,9 @@ void set_nema_controller(SumoSignal& signal, SumoWarnings& warnings) {
     controller->settings.controller = "dual_ring";
     controller->settings.first_green_s = 0.0;
     if (is_true(signal, "coordinate-mode")) {
-        controller->settings.cycle_s = sumo_parameter(
-            signal, "total-cycle-length",
-            sumo_parameter(signal, "cycle-length", sumo_parameter(signal, "cycleTime", 60.0)));
+        controller->settings.cycle_s =
+            sumo_parameter(signal, "total-cycle-length",
+                           sumo_parameter(signal, "cycle-length", sumo_parameter(signal, "cycleTime", 60.0)));
     }
     const std::vector<int> barriers = numbers_of(signal, "barrierPhases");
     std::vector<int> last_phases = numbers_of(signal, "coordinatePhases");
@@ -137,7 +137,8 @@ void set_nema_controller(SumoSignal& signal, SumoWarnings& warnings) {
     }
     controller->cycle_start_s = cycle_start_s(signal, *controller);
     if (is_true(signal, "fixForceOff"))
-        warnings.note(signal.where, "'fixForceOff' is ignored: the time that a phase leaves goes to coordinated phases");
+        warnings.note(signal.where,
+                      "'fixForceOff' is ignored: the time that a phase leaves goes to coordinated phases");
     note_unknown_parameters(
         signal,
         {"ring1", "ring2", "barrierPhases", "barrier2Phases", "coordinatePhases", "minRecall", "maxRecall",
