@@ -162,7 +162,7 @@ TEST(DualRingSignals, ProtectedGreensOfBothRingsMustNotConflict) {
     // Phase 7 gets a movement that conflicts with phase 6, which can run together with it.
     phases.replace(phases.find("north_left"), 10, "north_left, west_right");
     EXPECT_TRUE(contains(error_of_signal(phases),
-                         "test.yaml:15:52: field 'signal.phases[6].protected[1]': the protected movements "
+                         "test.yaml:15:51: field 'signal.phases[6].protected[1]': the protected movements "
                          "north_straight and west_right of phases 6 and 7 conflict"));
     // The same movements in one phase are reported once.
     phases = ring_phases();
