@@ -4,9 +4,9 @@
 // of another phase, the green goes on. Yellow and all-red times are constant.
 //
 // Each approach lane has two detectors (signals/actuation.h). A lane has a call while a vehicle covers the one at the
-// stop line, and from the tick at which a vehicle passes the other one at red. The call of a lane with several movements
-// belongs to the phases that give green to all of them. If there are none, it belongs to the phases that give green to
-// one of them.
+// stop line, and from the tick at which a vehicle passes the other one at red. The call of a lane with several
+// movements belongs to the phases that give green to all of them. If there are none, it belongs to the phases that give
+// green to one of them.
 #include <algorithm>
 
 #include <fmt/format.h>

@@ -29,13 +29,13 @@ bool is_at(const SignalPlan& plan, const SignalDetector& detector, std::size_t p
 // extends the phase.
 bool extends_phase(const SignalPlan& plan, const SignalDetector& detector, int phase);
 
-// Returns true if the lane of the detector calls and extends a phase in a ring: no other phase serves the lane better. A
-// phase that protects all movements of the lane serves it best. Next come green for all movements, a protected green for
-// one of them, and green for one of them.
+// Returns true if the lane of the detector calls and extends a phase in a ring: no other phase serves the lane better.
+// A phase that protects all movements of the lane serves it best. Next come green for all movements, a protected green
+// for one of them, and green for one of them.
 bool belongs_to_phase(const SignalPlan& plan, const SignalDetector& detector, int phase);
 
-// Returns the ticks between two decisions about the end of a green. Imported controllers decide once a second, as those of
-// SUMO do.
+// Returns the ticks between two decisions about the end of a green. Imported controllers decide once a second, as those
+// of SUMO do.
 std::int64_t decision_ticks(const SignalPlan& plan);
 
 // Returns the distances of both detectors from the stop line, m. A distance of 0 m adds no detector.

@@ -1,17 +1,17 @@
-// The dual-ring controller (NEMA TS 2; FHWA, Signal Timing Manual, second edition, chapters 4 to 7). Its phases run in two
-// rings. A green lasts at least its minimum. It then ends for another phase with a call at a gap in the traffic or at its
-// maximum. Phases without a call are skipped.
+// The dual-ring controller (NEMA TS 2; FHWA, Signal Timing Manual, second edition, chapters 4 to 7). Its phases run in
+// two rings. A green lasts at least its minimum. It then ends for another phase with a call at a gap in the traffic or
+// at its maximum. Phases without a call are skipped.
 //
 // - Within a side of the barriers each ring goes on by itself, in the order of the file.
-// - Both rings leave a side in the same tick, when both greens may end (simultaneous gap-out). The next side begins when
-//   both rings are cleared. A phase whose turn is over gets its next green after a barrier, too: without a call beyond the
-//   barrier, both rings begin the same side again.
+// - Both rings leave a side in the same tick, when both greens may end (simultaneous gap-out). The next side begins
+//   when both rings are cleared. A phase whose turn is over gets its next green after a barrier, too: without a call
+//   beyond the barrier, both rings begin the same side again.
 // - A lane calls the phases that protect all its movements. Without such a phase it calls those with green for all of
 //   them, else those that protect one of them, else those with green for one of them. The same lanes extend the green.
 //
 // Coordination. Each ring has one coordinated phase. It holds its green up to its yield point in the background cycle.
-// Another phase gets green only if its minimum fits in before its force-off point. Its green lasts at most its green time
-// (floating force-off), so the time that it leaves goes to the coordinated phases.
+// Another phase gets green only if its minimum fits in before its force-off point. Its green lasts at most its green
+// time (floating force-off), so the time that it leaves goes to the coordinated phases.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -33,8 +33,8 @@ enum : std::size_t { kHasBegun, kSide, kIsCrossing, kRingNumbers };
 
 // Numbers of a ring. kCurrentPhase: -1: none. kLastPlace: place of the last phase on the present side; -1: none.
 // kClearing: groups that show yellow or red after the phase. kMaximumStart: tick of the first call that ends the phase.
-// kExtension: the last tick of a decision at which a vehicle covered a detector of the phase. kPoint: tick of the force-off
-// or yield point.
+// kExtension: the last tick of a decision at which a vehicle covered a detector of the phase. kPoint: tick of the
+// force-off or yield point.
 enum : std::size_t {
     kRingInterval,
     kCurrentPhase,
@@ -230,8 +230,8 @@ private:
         if (next >= 0 && may_end(ring)) begin_yellow(ring, next);
     }
 
-    // The maximum green of the phase begins with the next call. SUMO's maximum begins with the green, and again with the
-    // minimum green while both rings rest.
+    // The maximum green of the phase begins with the next call. SUMO's maximum begins with the green, and again with
+    // the minimum green while both rings rest.
     void rest(std::size_t ring) {
         if (!is_imported()) {
             at(ring, kMaximumStart) = -1;

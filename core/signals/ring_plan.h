@@ -1,5 +1,5 @@
-// The rings of a signal (NEMA TS 2). The phases of one ring run one after the other. Those of two rings can run together
-// if they lie on the same side of the barriers. Both rings cross a barrier at the same time.
+// The rings of a signal (NEMA TS 2). The phases of one ring run one after the other. Those of two rings can run
+// together if they lie on the same side of the barriers. Both rings cross a barrier at the same time.
 #pragma once
 
 #include <array>
@@ -56,8 +56,8 @@ struct RingPlan {
     }
 };
 
-// Converts the settings. The background cycle starts at the first green. `movements`: the name of a movement of each group
-// of the signal.
+// Converts the settings. The background cycle starts at the first green. `movements`: the name of a movement of each
+// group of the signal.
 RingPlan make_ring_plan(const SignalSettings& settings, std::span<const std::string> movements, double step_s);
 
 // Returns the phases of each pair of RingPlan::pairs as one phase each, with the movements of both. A movement is
@@ -71,7 +71,8 @@ std::string pair_text(const RingPair& pair);
 // programmes repeat.
 std::vector<GroupProgramme> make_ring_programmes(const PhasePlan& plan, int groups);
 
-// Returns the sum over the sides of the barriers of the longer ring, s: the cycle in which each phase has its green time.
+// Returns the sum over the sides of the barriers of the longer ring, s: the cycle in which each phase has its green
+// time.
 double ring_cycle_s(const SignalSettings& settings);
 
 }  // namespace stopline

@@ -62,8 +62,8 @@ struct SignalController {
     bool follows_programme = false;
     // True: the controller can run phases (SignalPlan::phases).
     bool runs_phases = false;
-    // True: the controller runs the phases in rings (PhasePlan::rings). SignalState::phase is then the index of a pair of
-    // phases in RingPlan::pairs.
+    // True: the controller runs the phases in rings (PhasePlan::rings). SignalState::phase is then the index of a pair
+    // of phases in RingPlan::pairs.
     bool runs_rings = false;
 };
 

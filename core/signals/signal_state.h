@@ -22,7 +22,8 @@ struct SignalDetector {
     // Tick at the end of the step in which a front passed the detector last; -1: never.
     std::int64_t last_crossing_tick = -1;
     std::int64_t last_occupied_tick = -1;  // last tick at which a vehicle covered the detector; -1: never
-    // Only for detectors of SignalPlan::lane_detectors: the phases that this detector calls and extends; bit k: phase k.
+    // Only for detectors of SignalPlan::lane_detectors: the phases that this detector calls and extends; bit k: phase
+    // k.
     std::uint64_t phases = 0;
 };
 

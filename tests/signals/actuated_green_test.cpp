@@ -9,9 +9,10 @@
 namespace stopline {
 namespace {
 
-// The mean green of a phase with Poisson arrivals at a point queue. The other phase has a constant length, so the red of the
-// first phase is constant, too. The extension after the queue is that of the Highway Capacity Manual, sixth edition,
-// chapter 31, section 2 (actuated phase duration): the time to the first gap of a Poisson process that is longer than e.
+// The mean green of a phase with Poisson arrivals at a point queue. The other phase has a constant length, so the red
+// of the first phase is constant, too. The extension after the queue is that of the Highway Capacity Manual, sixth
+// edition, chapter 31, section 2 (actuated phase duration): the time to the first gap of a Poisson process that is
+// longer than e.
 struct PointQueue {
     double flow_1ps;
     double headway_s;

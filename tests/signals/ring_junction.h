@@ -19,8 +19,8 @@ inline PhaseSettings ring_phase(int ring, int barrier, std::vector<std::string> 
     return phase;
 }
 
-// Returns the eight phases of NEMA with leading left turns. Phase k of the list has the number k + 1. All phases have the
-// same minimum and green, so each ring takes 4 (green + 5 s).
+// Returns the eight phases of NEMA with leading left turns. Phase k of the list has the number k + 1. All phases have
+// the same minimum and green, so each ring takes 4 (green + 5 s).
 inline SignalSettings eight_phases(double min_green_s = 5.0, double green_s = 20.0) {
     SignalSettings settings;
     settings.controller = "dual_ring";

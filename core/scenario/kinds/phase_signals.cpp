@@ -111,8 +111,8 @@ private:
         return movements;
     }
 
-    // Checks the movements that have green together in two rings. A phase whose movements conflict is not checked together
-    // with other phases.
+    // Checks the movements that have green together in two rings. A phase whose movements conflict is not checked
+    // together with other phases.
     void check_ring_pairs() {
         std::vector<bool> has_conflict(movements_.size());
         for (const RingPair& pair : make_ring_plan(scenario_.signal, {}, scenario_.tick_s()).pairs) {

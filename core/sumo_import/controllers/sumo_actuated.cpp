@@ -1,5 +1,5 @@
-// Signals of the type `actuated`. Green phases become phases of the controller `actuated`. The phases between them become
-// its yellow and all-red times.
+// Signals of the type `actuated`. Green phases become phases of the controller `actuated`. The phases between them
+// become its yellow and all-red times.
 #include <algorithm>
 #include <cstddef>
 
@@ -19,8 +19,8 @@ bool is_green_phase(const SumoPhase& phase) {
     return phase.state.find_first_of("gG") != std::string::npos && !has_yellow(phase);
 }
 
-// Returns the phases in the order in which they run, from the first green phase on. The list is empty if the phases that
-// run do not repeat with it.
+// Returns the phases in the order in which they run, from the first green phase on. The list is empty if the phases
+// that run do not repeat with it.
 std::vector<int> order_of(const SumoSignal& signal, SumoWarnings& warnings) {
     const auto count = static_cast<int>(signal.phases.size());
     const auto first = std::find_if(signal.phases.begin(), signal.phases.end(), is_green_phase);

@@ -11,10 +11,13 @@
 namespace stopline {
 
 void set_sumo_controllers(SumoNet& net) {
+    constexpr std::size_t kMaxLinks = 64;  // bits of SignalPhase::green_groups
     for (SumoSignal& signal : net.signals) {
         if (signal.type.empty() || signal.type == "static" || signal.phases.empty()) continue;
         const std::vector<SumoPhase> file_phases = signal.phases;
-        if (signal.type == "actuated") {
+        if (signal.phases[0].state.size() > kMaxLinks) {
+            net.warnings.note(signal.where, "signals that react to traffic can have at most 64 links");
+        } else if (signal.type == "actuated") {
             set_actuated_controller(signal, net.warnings);
         } else if (signal.type == "NEMA") {
             set_nema_controller(signal, net.warnings);

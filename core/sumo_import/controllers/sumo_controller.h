@@ -23,8 +23,8 @@ struct SumoController {
     std::vector<SumoPhase> file_phases;  // phases of the file
 };
 
-// Sets SumoSignal::controller of all signals of the types `actuated` and `NEMA` that can run as such. The phases of `NEMA`
-// become all pairs of phases that can run together. Warns of all that is not supported.
+// Sets SumoSignal::controller of all signals of the types `actuated` and `NEMA` that can run as such. The phases of
+// `NEMA` become all pairs of phases that can run together. Warns of all that is not supported.
 void set_sumo_controllers(SumoNet& net);
 // The same for one signal.
 void set_actuated_controller(SumoSignal& signal, SumoWarnings& warnings);

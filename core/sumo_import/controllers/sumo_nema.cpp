@@ -16,6 +16,8 @@ namespace stopline {
 
 namespace {
 
+constexpr double kLongestNominalGreen_s = 600.0;  // without maxDur there is no maximum green
+
 // Returns the phase numbers in the value of a parameter. SUMO reads each digit as a number. 0 stands for no phase.
 std::vector<int> numbers_of(const SumoSignal& signal, const std::string& name, const std::string& fallback = "") {
     const auto found = signal.parameters.find(name);
@@ -56,7 +58,8 @@ void add_ring(const SumoSignal& signal, int ring, const std::vector<int>& number
         PhaseSettings phase;
         phase.ring = ring;
         phase.barrier = barrier;
-        phase.green_s = phase.max_green_s = std::max(from.max_s, from.min_s);
+        phase.max_green_s = std::max(from.max_s, from.min_s);
+        phase.green_s = std::min(phase.max_green_s, kLongestNominalGreen_s);
         phase.min_green_s = from.min_s;
         phase.gap_s = from.extension_s;
         phase.yellow_s = from.yellow_s;
@@ -97,8 +100,8 @@ void set_pairs(SumoSignal& signal, SumoController& controller) {
     signal.phases = std::move(phases);
 }
 
-// Returns the start of the background cycle. SUMO's cycle begins with the end of the coordinated phase and its clearance
-// (cabinetType Type170), or with its green (TS2).
+// Returns the start of the background cycle. SUMO's cycle begins with the end of the coordinated phase and its
+// clearance (cabinetType Type170), or with its green (TS2).
 double cycle_start_s(const SumoSignal& signal, const SumoController& controller) {
     constexpr double kTick_s = 1e-3;
     const RingPlan rings = make_ring_plan(controller.settings, {}, kTick_s);
