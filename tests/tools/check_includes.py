@@ -50,8 +50,9 @@ ALLOWED = {
     "reference": ["base"],
     "runs": SIM_BELOW + ["string_stability", "sim/*", "measure", "scenario"],
     "sweeps": ["base", "measure", "scenario", "runs"],
+    "signal_timing": ["base", "network", "measure", "scenario", "sim/*", "runs", "sweeps"],
     "calibration": ["base", "driver", "measure", "scenario", "sim/*", "runs", "sweeps"],
-    "figures": ["base", "network", "measure", "scenario", "sim/*", "reference", "runs", "sweeps", "calibration"],
+    "figures": ["base", "network", "measure", "scenario", "sim/*", "reference", "runs", "sweeps", "signal_timing", "calibration"],
     "paper": ["base", "measure", "scenario", "sim/*", "reference", "runs", "sweeps", "calibration", "figures"],
     "sumo_export": ["base", "network", "signals", "demand", "sumo_import", "sim/*", "measure", "record", "scenario", "runs", "figures"],
 }

@@ -1,0 +1,24 @@
+#include "scenario/files/field_place.h"
+
+#include <fmt/format.h>
+
+#include "scenario/schema/field_path.h"
+#include "scenario/yaml/yaml_source.h"
+
+namespace stopline {
+
+std::string field_place(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                        const std::string& path) {
+    for (auto text = overrides.rbegin(); text != overrides.rend(); ++text) {
+        if (text->starts_with(path + "=")) return fmt::format("--set '{}'", *text);
+    }
+    const SourceNode root = read_yaml_file(file);
+    const SourceNode* node = &root;
+    for (const PathStep& step : path_steps(path)) {
+        node = node->kind == SourceNode::Kind::map ? node->find(step.name) : nullptr;
+        if (node == nullptr) return file.string();
+    }
+    return to_string(node->place);
+}
+
+}  // namespace stopline

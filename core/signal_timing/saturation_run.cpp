@@ -1,0 +1,172 @@
+#include "signal_timing/saturation_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "base/containers/index.h"
+#include "base/input_error.h"
+#include "base/nan.h"
+#include "measure/confidence.h"
+#include "runs/interrupted.h"
+#include "runs/intersection/intersection_run.h"
+#include "scenario/build_model.h"
+
+namespace stopline {
+
+namespace {
+
+// Part of yellow that drivers use if no lane measures it (HCM 2000, exhibit 10-12: 2 s).
+constexpr double kUsualEndGain_s = 2.0;
+
+// Counts the vehicles that pass each stop line in the measured window.
+class PassageCounter {
+public:
+    PassageCounter(const LaneGraph& graph, const TimeWindow& window)
+        : passed_(graph.lanes.size(), 0), window_(window) {}
+
+    // Reads the crossings that have been recorded since the last call.
+    void read(const Simulation& simulation) {
+        const std::vector<Crossing>& crossings = simulation.state().records.crossings;
+        for (; read_ < crossings.size(); ++read_) {
+            const Detector& detector = simulation.model().detectors[at(crossings[read_].detector)];
+            if (detector.kind != Detector::Kind::stop_line || !window_.contains(crossings[read_].time_s)) continue;
+            ++passed_[at(detector.lane)];
+        }
+    }
+    int on(std::size_t lane) const { return passed_[lane]; }
+
+private:
+    std::vector<int> passed_;  // [lane]
+    TimeWindow window_;
+    std::size_t read_ = 0;
+};
+
+// Values of the lanes that one LaneSaturation averages.
+struct LaneSums {
+    std::vector<double> vehicles_per_green;
+    std::vector<double> saturation_headway_s;
+    std::vector<double> startup_lost_time_s;
+};
+
+double mean_or_nan(const std::vector<double>& values) { return values.empty() ? kNan : mean_of(values); }
+
+// Sets the flows of all lanes of a stage, and the lost time of the stage.
+void finish_stage(int stage, const Scenario& scenario, std::span<const LaneSums> sums, Saturation& result) {
+    const double change_s = scenario.signal.yellow_s + scenario.signal.all_red_s;
+    std::vector<double> startup_s;
+    std::vector<double> end_gain_s;
+    std::vector<double> startup_with_left_s;
+    const std::size_t first = at(stage) * sums.size();
+    for (std::size_t index = 0; index < sums.size(); ++index) {
+        LaneSaturation& lane = result.lanes[first + index];
+        const double headway_s = mean_or_nan(sums[index].saturation_headway_s);
+        lane.vehicles_per_green = mean_or_nan(sums[index].vehicles_per_green);
+        lane.startup_lost_time_s = mean_or_nan(sums[index].startup_lost_time_s);
+        if (std::isnan(headway_s)) continue;
+        lane.flow_veh_h = 3600.0 / headway_s;
+        (lane.turns_left ? startup_with_left_s : startup_s).push_back(lane.startup_lost_time_s);
+        if (lane.turns_left) continue;
+        const double gain_s = lane.vehicles_per_green * headway_s + lane.startup_lost_time_s - kSaturationGreen_s;
+        end_gain_s.push_back(std::clamp(gain_s, 0.0, change_s));
+    }
+    StageLostTime& lost = result.lost[at(stage)];
+    const std::vector<double>& known_s = startup_s.empty() ? startup_with_left_s : startup_s;
+    lost.startup_s = known_s.empty() ? 0.0 : mean_of(known_s);
+    lost.end_gain_s = end_gain_s.empty() ? std::min(kUsualEndGain_s, change_s) : mean_of(end_gain_s);
+    for (std::size_t index = 0; index < sums.size(); ++index) {
+        LaneSaturation& lane = result.lanes[first + index];
+        if (!lane.turns_left && lane.flow_veh_h > 0.0) continue;
+        lane.flow_veh_h = 3600.0 * lane.vehicles_per_green / lost.effective_green_s(kSaturationGreen_s);
+    }
+}
+
+bool turns_left(const std::vector<LaneDemand>& demands, int stage, int index) {
+    return std::any_of(demands.begin(), demands.end(), [&](const LaneDemand& one) {
+        return one.stage == stage && one.index == index && one.left_share > 0.0;
+    });
+}
+
+void check_lanes(const Saturation& result) {
+    for (const LaneSaturation& lane : result.lanes) {
+        if (lane.flow_veh_h > 0.0) continue;
+        throw InputError(fmt::format(
+            "{}: no vehicle passes on lane {} (from the left) of the street {} in a saturated run with {:g} s of green; "
+            "left-turning vehicles may find no gap. Add a lane for left turns, or set fewer of them (demand.left)",
+            result.population, lane.index, kTimingStreets[lane.stage], kSaturationGreen_s));
+    }
+}
+
+}  // namespace
+
+const LaneSaturation& Saturation::lane(int stage, int index) const {
+    return lanes[at(stage) * (lanes.size() / kTimingStages) + at(index)];
+}
+
+Scenario saturated_scenario(const Scenario& scenario) {
+    Scenario saturated = scenario;
+    saturated.network.kind = "intersection";
+    saturated.duration_s = 0.0;  // until the end of the measured cycles
+    saturated.signal.first_green_s = 1.0;
+    saturated.signal.green_s = kSaturationGreen_s;
+    saturated.signal.cross_green_s = 0.0;
+    saturated.signal.offset_s = 0.0;
+    saturated.demand.kind = "saturated";
+    saturated.demand.start = "queued";
+    saturated.demand.cross_inflow_1ps = 0.0;
+    saturated.demand.approaches.clear();
+    saturated.measure.warmup_cycles = 1;
+    saturated.measure.cycles = kSaturationCycles;
+    saturated.measure.zone_radius_m.clear();
+    return saturated;
+}
+
+Saturation measure_saturation(const Scenario& scenario, std::size_t population,
+                              const std::function<bool(double)>& keep_going) {
+    const Scenario saturated = saturated_scenario(scenario);
+    const Model model = build_model(saturated, population);
+    const TimeWindow window = measured_window(saturated);
+    PassageCounter counter(model.graph, window);
+    Observation observation;
+    observation.look = [&](std::size_t, const Simulation& simulation) { counter.read(simulation); };
+    const auto on_step = [&](const Simulation& simulation) {
+        constexpr std::int64_t kTicksPerReport = 1000;
+        if (!keep_going || simulation.state().tick % kTicksPerReport != 0) return true;
+        return keep_going(simulation.time_s() / window.to_s);
+    };
+    const IntersectionResult run = run_intersection(saturated, population, on_step, observation);
+    if (!run.complete) throw Interrupted();
+
+    Saturation result;
+    result.population = run.population;
+    result.has_violations = !run.violations.none();
+    const std::size_t lanes = scenario.network.intersection.lanes.size();
+    const std::vector<LaneDemand> demands = lane_demands(model);
+    for (int stage = 0; stage < kTimingStages; ++stage) {
+        for (std::size_t index = 0; index < lanes; ++index) {
+            const int place = static_cast<int>(index);
+            result.lanes.push_back({stage, place, turns_left(demands, stage, place)});
+        }
+    }
+    std::vector<LaneSums> sums(result.lanes.size());
+    for (const LaneDischarge& one : run.discharge.lanes) {
+        const auto named = [&](const Lane& lane) { return lane.name == one.lane; };
+        const auto lane = std::find_if(model.graph.lanes.begin(), model.graph.lanes.end(), named);
+        LaneSums& sum = sums[at(stage_of_lane(*lane)) * lanes + at(index_of_lane(*lane))];
+        const int passed = counter.on(static_cast<std::size_t>(lane - model.graph.lanes.begin()));
+        sum.vehicles_per_green.push_back(static_cast<double>(passed) / kSaturationCycles);
+        if (one.saturated_greens == 0) continue;
+        sum.saturation_headway_s.push_back(one.saturation_headway_s);
+        sum.startup_lost_time_s.push_back(one.startup_lost_time_s);
+    }
+    for (int stage = 0; stage < kTimingStages; ++stage) {
+        finish_stage(stage, saturated, std::span(sums).subspan(at(stage) * lanes, lanes), result);
+    }
+    check_lanes(result);
+    return result;
+}
+
+}  // namespace stopline

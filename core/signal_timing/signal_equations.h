@@ -1,0 +1,51 @@
+// Closed forms for a fixed-time signal: Webster's cycle and greens, and capacity, delay and level of service by the
+// Highway Capacity Manual (HCM). Pure functions; times in s, flows in veh/h.
+//
+// Sources:
+//   Webster      F. V. Webster, Traffic Signal Settings, Road Research Technical Paper 39, London 1958
+//   HCM          Highway Capacity Manual 2000, chapter 16. Later editions keep these equations (6th edition: chapter 19).
+//   MUTCD        Manual on Uniform Traffic Control Devices 2009, section 4E.06
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace stopline {
+
+// Webster's equations diverge as the sum of the critical flow ratios approaches 1. From this sum on they give no cycle.
+inline constexpr double kMaxFlowRatioSum = 0.95;
+
+// Ratio of the demand of a lane to its saturation flow (HCM equation 16-7 with X g / C). Throws InputError unless the
+// saturation flow is above 0.
+double flow_ratio(double demand_veh_h, double saturation_flow_veh_h);
+
+// Returns Webster's cycle of least delay, C = (1.5 L + 5 s) / (1 - Y). `lost_time_s` L is the lost time of all stages
+// in a cycle, and `flow_ratio_sum` Y is the sum of the critical flow ratios of the stages. Throws InputError if Y is
+// kMaxFlowRatioSum or more.
+double webster_cycle_s(double lost_time_s, double flow_ratio_sum);
+
+// Returns the effective greens of the stages: the cycle without its lost time, shared in proportion to the critical
+// flow ratios (Webster). All ratios 0: equal shares.
+std::vector<double> effective_greens_s(double cycle_s, double lost_time_s, std::span<const double> flow_ratios);
+
+// Returns the green that pedestrians need to cross a road: a walk interval of 7 s, then the crossing at 1.07 m/s
+// (3.5 ft/s), of which yellow and all red may cover the end (MUTCD).
+double pedestrian_green_s(double crossing_m, double yellow_s, double all_red_s);
+
+// Returns the capacity s g / C (HCM equation 16-6).
+double capacity_veh_h(double saturation_flow_veh_h, double effective_green_s, double cycle_s);
+
+// Returns the uniform delay d1 (HCM equation 16-11), the delay of evenly spaced arrivals. `saturation` is the degree of
+// saturation X, demand over capacity.
+double uniform_delay_s(double cycle_s, double effective_green_s, double saturation);
+
+// Returns the incremental delay d2 (HCM equation 16-12) of random arrivals and of demand above capacity. The defaults
+// are an analysis period of 15 min, a pretimed signal (k = 0.5), and an isolated intersection (I = 1).
+double incremental_delay_s(double saturation, double capacity_veh_h, double period_h = 0.25, double k = 0.5,
+                           double upstream_i = 1.0);
+
+// Returns the level of service, A to F, of a control delay (HCM exhibit 16-2). It is F for any degree of saturation
+// above 1 (HCM, 6th edition, exhibit 19-8).
+char level_of_service(double control_delay_s, double saturation);
+
+}  // namespace stopline
