@@ -12,7 +12,6 @@
 #include "base/input_error.h"
 #include "base/io/data_directory.h"
 #include "base/io/output.h"
-#include "base/nearest_name.h"
 #include "base/units.h"
 #include "common/command_line.h"
 #include "common/examples.h"
@@ -24,7 +23,6 @@
 #include "runs/strings/string_csv.h"
 #include "runs/strings/string_report.h"
 #include "runs/strings/string_sweep.h"
-#include "scenario/load_scenario.h"
 #include "scenario/schema/quantity.h"
 #include "strings/string_text.h"
 
@@ -56,10 +54,7 @@ void declare(Options& app, StringsCliOptions& options) {
     app.add("FILE", options.file,
             runnable("Scenario with a straight road (default: scenarios/single_light.yaml). Each of its populations "
                      "drives as a platoon"));
-    app.add("--population", options.populations,
-            "Population of the scenario, or policy of all vehicles; may be repeated (default: all populations)")
-        .type_name("NAME")
-        .one_value_each();
+    add_population_option(app, options.populations, "all populations");
     app.add("--vehicles", options.vehicles, "Number of vehicles of a platoon, with its leader")
         .range(2, 200)
         .show_default();
@@ -98,31 +93,6 @@ void declare(Options& app, StringsCliOptions& options) {
                         "Next: see the effect of the delay on the throughput of a light\n"
                         "  stopline-run scenarios/single_light.yaml --set 'driver.cacc.v2v_delay=150 ms'\n\n") +
                kExitCodesText);
-}
-
-// Replaces the populations of the scenario by those of the command line, if it names any.
-void choose_populations(const std::vector<std::string>& names, Scenario& scenario) {
-    if (names.empty()) return;
-    std::vector<PopulationSettings> chosen;
-    std::vector<std::string> known;
-    for (const PopulationSettings& population : scenario.populations) known.push_back(population.name);
-    for (const GapPolicySettings& policy : scenario.policies) {
-        if (std::find(known.begin(), known.end(), policy.name) == known.end()) known.push_back(policy.name);
-    }
-    for (const std::string& name : names) {
-        if (std::find(known.begin(), known.end(), name) == known.end()) {
-            throw InputError(fmt::format("--population: there is no population or policy '{}'{}", shortened(name),
-                                         known_names_hint(name, known)));
-        }
-        const auto population = std::find_if(scenario.populations.begin(), scenario.populations.end(),
-                                             [&](const PopulationSettings& one) { return one.name == name; });
-        chosen.push_back(population != scenario.populations.end()
-                             ? *population
-                             : PopulationSettings{name, {{name, 1.0}}, PopulationSettings::Pattern::alternating});
-    }
-    scenario.populations = std::move(chosen);
-    scenario.measure.baseline.clear();
-    scenario.hash = scenario_hash(scenario);
 }
 
 // Returns a quantity from the command line in SI units. Throws InputError unless it is from `low` to `high`.

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "base/input_error.h"
+#include "base/nearest_name.h"
 #include "common/examples.h"
 #include "common/text_table.h"
 #include "runs/metrics/metric_groups.h"
@@ -169,6 +170,38 @@ std::string list_text(const std::string& file, const CommonOptions& options) {
         for (const MetricGroup& group : metric_groups()) append_metrics(text, group, nullptr);
     }
     return text;
+}
+
+void add_population_option(Options& app, std::vector<std::string>& names, const std::string& default_text) {
+    app.add("--population", names,
+            fmt::format("Population of the scenario, or policy of all vehicles; may be repeated (default: {})",
+                        default_text))
+        .type_name("NAME")
+        .one_value_each();
+}
+
+void choose_populations(const std::vector<std::string>& names, Scenario& scenario) {
+    if (names.empty()) return;
+    std::vector<PopulationSettings> chosen;
+    std::vector<std::string> known;
+    for (const PopulationSettings& population : scenario.populations) known.push_back(population.name);
+    for (const GapPolicySettings& policy : scenario.policies) {
+        if (std::find(known.begin(), known.end(), policy.name) == known.end()) known.push_back(policy.name);
+    }
+    for (const std::string& name : names) {
+        if (std::find(known.begin(), known.end(), name) == known.end()) {
+            throw InputError(fmt::format("--population: there is no population or policy '{}'{}", shortened(name),
+                                         known_names_hint(name, known)));
+        }
+        const auto population = std::find_if(scenario.populations.begin(), scenario.populations.end(),
+                                             [&](const PopulationSettings& one) { return one.name == name; });
+        chosen.push_back(population != scenario.populations.end()
+                             ? *population
+                             : PopulationSettings{name, {{name, 1.0}}, PopulationSettings::Pattern::alternating});
+    }
+    scenario.populations = std::move(chosen);
+    scenario.measure.baseline.clear();
+    scenario.hash = scenario_hash(scenario);
 }
 
 }  // namespace stopline

@@ -59,4 +59,11 @@ std::string command_text(const std::string& program, const std::string& file, co
 // empty, the list shows the policies and populations of that scenario.
 std::string list_text(const std::string& file, const CommonOptions& options);
 
+// Adds --population, which can be repeated.
+void add_population_option(Options& app, std::vector<std::string>& names, const std::string& default_text);
+
+// Replaces the populations of the scenario by those with the names, if there are any. A name is that of a population of
+// the scenario, or that of a policy which all vehicles follow. Throws InputError for an unknown name.
+void choose_populations(const std::vector<std::string>& names, Scenario& scenario);
+
 }  // namespace stopline

@@ -160,9 +160,8 @@ std::vector<std::string> search_overrides(const Scenario& scenario, const std::s
         const auto sets_path = [&](const std::string& one) { return one.substr(0, one.find('=')) == path; };
         if (std::none_of(searched.begin(), searched.end(), sets_path)) overrides.push_back(text);
     }
-    const auto is_named = [&](const GapPolicySettings& policy) { return policy.name == population; };
-    if (std::any_of(scenario.policies.begin(), scenario.policies.end(), is_named)) {
-        // The scenario file need not list the policy as a population.
+    const std::vector<std::string>& listed = options.populations_in_file;
+    if (std::find(listed.begin(), listed.end(), population) == listed.end()) {
         overrides.push_back(fmt::format("populations=[{}]", population));
         overrides.push_back(fmt::format("measure.baseline={}", population));
     }

@@ -25,8 +25,9 @@ inline constexpr double kSearchDuration_s = 2700.0;
 enum class Objective { delay, throughput };
 
 struct SearchOptions {
-    std::vector<std::string> overrides;  // from --set
-    std::string file;                    // path of the scenario
+    std::vector<std::string> overrides;            // from --set
+    std::string file;                              // path of the scenario
+    std::vector<std::string> populations_in_file;  // other names of populations are those of policies
     int seeds = 3;
     int greens = 5;   // number of values of each green
     int offsets = 6;  // number of offsets in a network of several intersections
