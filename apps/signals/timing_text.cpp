@@ -64,8 +64,8 @@ std::string assumptions_text(const std::vector<PopulationTiming>& timings, bool 
     };
     if (std::any_of(timings.begin(), timings.end(), has_left)) {
         notes.emplace_back(
-            "Left turns yield to oncoming traffic. The flow of a lane with left turns is that behind saturated oncoming "
-            "lanes, so the timing is on the safe side if the oncoming traffic is lighter.");
+            "Left turns yield to oncoming traffic. The flow of a lane with left turns is measured with a queue on its own "
+            "leg, and with the demand on the oncoming leg.");
     }
     if (is_network) {
         notes.emplace_back(

@@ -11,9 +11,11 @@
 #include "base/input_error.h"
 #include "base/nan.h"
 #include "measure/confidence.h"
+#include "network/side.h"
 #include "runs/interrupted.h"
 #include "runs/intersection/intersection_run.h"
 #include "scenario/build_model.h"
+#include "sim/step/simulation.h"
 
 namespace stopline {
 
@@ -54,7 +56,7 @@ struct LaneSums {
 
 double mean_or_nan(const std::vector<double>& values) { return values.empty() ? kNan : mean_of(values); }
 
-// Sets the flows of all lanes of a stage, and the lost time of the stage.
+// Sets the flows of the lanes of a stage by their headways, and the lost time of the stage.
 void finish_stage(int stage, const Scenario& scenario, std::span<const LaneSums> sums, Saturation& result) {
     const double change_s = scenario.signal.yellow_s + scenario.signal.all_red_s;
     std::vector<double> startup_s;
@@ -77,10 +79,67 @@ void finish_stage(int stage, const Scenario& scenario, std::span<const LaneSums>
     const std::vector<double>& known_s = startup_s.empty() ? startup_with_left_s : startup_s;
     lost.startup_s = known_s.empty() ? 0.0 : mean_of(known_s);
     lost.end_gain_s = end_gain_s.empty() ? std::min(kUsualEndGain_s, change_s) : mean_of(end_gain_s);
-    for (std::size_t index = 0; index < sums.size(); ++index) {
-        LaneSaturation& lane = result.lanes[first + index];
+}
+
+// Sets the flows of lanes with left turns, and of lanes on which no queue of five vehicles passed.
+void set_flows_by_count(Saturation& result) {
+    for (LaneSaturation& lane : result.lanes) {
         if (!lane.turns_left && lane.flow_veh_h > 0.0) continue;
-        lane.flow_veh_h = 3600.0 * lane.vehicles_per_green / lost.effective_green_s(kSaturationGreen_s);
+        const double green_s = result.lost[at(lane.stage)].effective_green_s(kSaturationGreen_s);
+        lane.flow_veh_h = 3600.0 * lane.vehicles_per_green / green_s;
+    }
+}
+
+// Returns the highest demand of the lanes with this stage and place, veh/h.
+double highest_veh_h(const std::vector<LaneDemand>& demands, int stage, int index) {
+    double highest = 0.0;
+    for (const LaneDemand& one : demands) {
+        if (one.stage == stage && one.index == index) highest = std::max(highest, one.flow_veh_h);
+    }
+    return highest;
+}
+
+bool is_first_leg(const Lane& lane) {
+    const Side side = comes_from(lane);
+    return side == Side::west || side == Side::south;
+}
+
+// Lets vehicles arrive on the legs in the east and north at the rate of the demand. The other legs stay saturated.
+void limit_oncoming_traffic(const std::vector<LaneDemand>& demands, Model& model) {
+    for (DemandPlan::Inlet& inlet : model.demand.inlets) {
+        const Lane& lane = model.graph.lanes[at(inlet.lane)];
+        if (is_first_leg(lane)) continue;
+        const double flow_veh_h = highest_veh_h(demands, stage_of_lane(lane), index_of_lane(lane));
+        inlet.headway_s = flow_veh_h > 0.0 ? 3600.0 / flow_veh_h : 0.0;
+        if (flow_veh_h == 0.0) inlet.vehicles = 0;
+    }
+}
+
+// Measures the vehicles per green of all lanes with left turns, and replaces those of the first run.
+void measure_left_lanes(const Scenario& saturated, std::size_t population, const std::vector<LaneDemand>& demands,
+                        const std::function<bool(double)>& keep_going, Saturation& result) {
+    constexpr int kWarmUpCycles = 3;  // the queues at the start of the run dissolve
+    constexpr std::int64_t kTicksPerReport = 1000;
+    Model model = build_model(saturated, population);
+    limit_oncoming_traffic(demands, model);
+    const double cycle_s = saturated.signal.intersection_cycle_s();
+    const double from_s = saturated.signal.first_green_s + kWarmUpCycles * cycle_s;
+    const TimeWindow window{from_s, from_s + kLeftTurnCycles * cycle_s};
+    PassageCounter counter(model.graph, window);
+    Simulation simulation(model);
+    while (simulation.time_s() < window.to_s) {
+        const bool reports = simulation.state().tick % kTicksPerReport == 0;
+        if (reports && keep_going && !keep_going(simulation.time_s() / window.to_s)) throw Interrupted();
+        simulation.step();
+    }
+    counter.read(simulation);
+    result.has_violations = result.has_violations || !simulation.state().records.violations.none();
+    for (std::size_t number = 0; number < model.graph.lanes.size(); ++number) {
+        const Lane& lane = model.graph.lanes[number];
+        if (lane.signal_group < 0 || !is_first_leg(lane)) continue;
+        LaneSaturation& measured = result.lanes[result.place(stage_of_lane(lane), index_of_lane(lane))];
+        if (measured.turns_left)
+            measured.vehicles_per_green = static_cast<double>(counter.on(number)) / kLeftTurnCycles;
     }
 }
 
@@ -102,8 +161,8 @@ void check_lanes(const Saturation& result) {
 
 }  // namespace
 
-const LaneSaturation& Saturation::lane(int stage, int index) const {
-    return lanes[at(stage) * (lanes.size() / kTimingStages) + at(index)];
+std::size_t Saturation::place(int stage, int index) const {
+    return at(stage) * (lanes.size() / kTimingStages) + at(index);
 }
 
 Scenario saturated_scenario(const Scenario& scenario) {
@@ -124,8 +183,9 @@ Scenario saturated_scenario(const Scenario& scenario) {
     return saturated;
 }
 
-Saturation measure_saturation(const Scenario& scenario, std::size_t population,
+Saturation measure_saturation(const Scenario& scenario, std::size_t population, const std::vector<LaneDemand>& demands,
                               const std::function<bool(double)>& keep_going) {
+    constexpr double kFirstRunShare = 0.5;  // of the work, for the progress
     const Scenario saturated = saturated_scenario(scenario);
     const Model model = build_model(saturated, population);
     const TimeWindow window = measured_window(saturated);
@@ -135,7 +195,7 @@ Saturation measure_saturation(const Scenario& scenario, std::size_t population,
     const auto on_step = [&](const Simulation& simulation) {
         constexpr std::int64_t kTicksPerReport = 1000;
         if (!keep_going || simulation.state().tick % kTicksPerReport != 0) return true;
-        return keep_going(simulation.time_s() / window.to_s);
+        return keep_going(kFirstRunShare * simulation.time_s() / window.to_s);
     };
     const IntersectionResult run = run_intersection(saturated, population, on_step, observation);
     if (!run.complete) throw Interrupted();
@@ -144,7 +204,6 @@ Saturation measure_saturation(const Scenario& scenario, std::size_t population,
     result.population = run.population;
     result.has_violations = !run.violations.none();
     const std::size_t lanes = scenario.network.intersection.lanes.size();
-    const std::vector<LaneDemand> demands = lane_demands(model);
     for (int stage = 0; stage < kTimingStages; ++stage) {
         for (std::size_t index = 0; index < lanes; ++index) {
             const int place = static_cast<int>(index);
@@ -155,7 +214,7 @@ Saturation measure_saturation(const Scenario& scenario, std::size_t population,
     for (const LaneDischarge& one : run.discharge.lanes) {
         const auto named = [&](const Lane& lane) { return lane.name == one.lane; };
         const auto lane = std::find_if(model.graph.lanes.begin(), model.graph.lanes.end(), named);
-        LaneSums& sum = sums[at(stage_of_lane(*lane)) * lanes + at(index_of_lane(*lane))];
+        LaneSums& sum = sums[result.place(stage_of_lane(*lane), index_of_lane(*lane))];
         const int passed = counter.on(static_cast<std::size_t>(lane - model.graph.lanes.begin()));
         sum.vehicles_per_green.push_back(static_cast<double>(passed) / kSaturationCycles);
         if (one.saturated_greens == 0) continue;
@@ -165,6 +224,14 @@ Saturation measure_saturation(const Scenario& scenario, std::size_t population,
     for (int stage = 0; stage < kTimingStages; ++stage) {
         finish_stage(stage, saturated, std::span(sums).subspan(at(stage) * lanes, lanes), result);
     }
+    const auto is_left = [](const LaneSaturation& lane) { return lane.turns_left; };
+    if (std::any_of(result.lanes.begin(), result.lanes.end(), is_left)) {
+        const auto report = [&](double share) {
+            return !keep_going || keep_going(kFirstRunShare + (1.0 - kFirstRunShare) * share);
+        };
+        measure_left_lanes(saturated, population, demands, report, result);
+    }
+    set_flows_by_count(result);
     check_lanes(result);
     return result;
 }

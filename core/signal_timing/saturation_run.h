@@ -1,4 +1,4 @@
-// Measures the saturation flow and the lost times of an intersection by a run with saturated demand: same lanes, turn
+// Measures the saturation flow and the lost times of an intersection by runs with saturated demand: same lanes, turn
 // shares, vehicles, driver and fidelity as the scenario, but a long green and an endless queue on each approach.
 //
 // A lane without left turns: the flow is that of the mean headway from the fifth vehicle of a queue on, and the start-up
@@ -6,8 +6,9 @@
 // that vehicles use: passed vehicles x saturation headway + start-up lost time - green.
 //
 // A lane with left turns: vehicles that yield to oncoming traffic hold those behind them, so the headways of unhindered
-// queues would overestimate its flow. Its flow is the number of vehicles that pass in a green, divided by the effective
-// green of its stage. The oncoming lanes are saturated, too, so this flow is a lower limit.
+// queues would overestimate its flow. A second run therefore saturates only one leg of each street, and lets vehicles
+// arrive on the other leg at the rate of the demand. The flow of the lane is the number of vehicles that pass in a
+// green, divided by the effective green of its stage.
 #pragma once
 
 #include <array>
@@ -22,6 +23,7 @@ namespace stopline {
 
 inline constexpr double kSaturationGreen_s = 40.0;  // green of both stages in the run
 inline constexpr int kSaturationCycles = 10;        // measured cycles, after one cycle of warm-up
+inline constexpr int kLeftTurnCycles = 20;          // measured cycles of the second run, after three cycles of warm-up
 
 // The mean of the lanes of a stage that have the same place in their approach.
 struct LaneSaturation {
@@ -50,15 +52,16 @@ struct Saturation {
     std::array<StageLostTime, kTimingStages> lost;
     bool has_violations = false;
 
-    const LaneSaturation& lane(int stage, int index) const;
+    std::size_t place(int stage, int index) const;  // index of a lane in `lanes`
 };
 
-// Returns the scenario of the measuring run: the intersection of the scenario alone, with saturated demand.
+// Returns the scenario of the first run: the intersection of the scenario alone, with saturated demand.
 Scenario saturated_scenario(const Scenario& scenario);
 
-// Runs saturated_scenario() for one population. `keep_going` returns false to stop the run, which throws Interrupted.
-// Throws InputError if no vehicle passes on one of the lanes that have demand.
-Saturation measure_saturation(const Scenario& scenario, std::size_t population,
+// Measures one population. `demands` are those of the scenario, which the second run needs. `keep_going` gets the
+// completed share, and returns false to stop the run, which throws Interrupted. Throws InputError if no vehicle passes
+// on one of the lanes.
+Saturation measure_saturation(const Scenario& scenario, std::size_t population, const std::vector<LaneDemand>& demands,
                               const std::function<bool(double)>& keep_going = {});
 
 }  // namespace stopline

@@ -164,8 +164,8 @@ std::vector<PopulationTiming> time_signals(const Scenario& scenario, const Timin
     std::vector<PopulationTiming> timings(scenario.populations.size());
     run_side_by_side(timings.size(), options.threads, options.on_progress,
                      [&](std::size_t population, const std::function<bool(double)>& report) {
-                         const Saturation saturation = measure_saturation(scenario, population, report);
                          const std::vector<LaneDemand> demands = lane_demands(build_model(scenario, population));
+                         const Saturation saturation = measure_saturation(scenario, population, demands, report);
                          timings[population] = timing_of(scenario, demands, saturation, options);
                      });
     return timings;
