@@ -55,7 +55,7 @@ TEST(SignalEquations, IncrementalDelay) {
     EXPECT_NEAR(incremental_delay_s(1.0, 600.0), 36.7423461, 1e-6);
     // X = 0.8, c = 600: 225 x (-0.2 + sqrt(0.04 + 3.2 / 150)) = 10.722 s.
     EXPECT_NEAR(incremental_delay_s(0.8, 600.0), 225.0 * (-0.2 + std::sqrt(0.04 + 3.2 / 150.0)), 1e-9);
-    EXPECT_NEAR(incremental_delay_s(0.8, 600.0), 10.7223, 1e-4);
+    EXPECT_NEAR(incremental_delay_s(0.8, 600.0), 10.7225, 1e-4);
     EXPECT_NEAR(incremental_delay_s(0.0, 600.0), 0.0, 1e-12);
     // Without random arrivals (I = 0), only demand above capacity delays: 1800 T (X - 1).
     EXPECT_NEAR(incremental_delay_s(0.9, 600.0, 0.25, 0.5, 0.0), 0.0, 1e-12);

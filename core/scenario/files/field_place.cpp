@@ -10,7 +10,8 @@ namespace stopline {
 std::string field_place(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                         const std::string& path) {
     for (auto text = overrides.rbegin(); text != overrides.rend(); ++text) {
-        if (text->starts_with(path + "=")) return fmt::format("--set '{}'", *text);
+        // An override of a section such as demand sets the fields in it, too.
+        if ((path + ".").starts_with(text->substr(0, text->find('=')) + ".")) return fmt::format("--set '{}'", *text);
     }
     const SourceNode root = read_yaml_file(file);
     const SourceNode* node = &root;
