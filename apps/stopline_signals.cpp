@@ -41,6 +41,7 @@ struct SignalsCliOptions {
     int seeds = 3;
     int greens = 5;
     int offsets = 6;
+    std::string range = "1.6";
     bool no_figures = false;
 };
 
@@ -58,6 +59,10 @@ void declare(Options& app, SignalsCliOptions& options) {
     app.add("--seeds", options.seeds, "With --search: runs of each setting").range(1, 1000).show_default();
     app.add("--greens", options.greens, "With --search: values of each green, an odd number")
         .range(1, 99)
+        .show_default();
+    app.add("--range", options.range,
+            "With --search: largest green over the start value, and the reverse for the smallest")
+        .type_name("NUMBER")
         .show_default();
     app.add("--offsets", options.offsets, "With --search: offsets of a network of several intersections")
         .range(1, 100)
@@ -77,15 +82,14 @@ void declare(Options& app, SignalsCliOptions& options) {
         kExitCodesText);
 }
 
-double min_green_s(const SignalsCliOptions& options) {
-    constexpr double kLongest_s = 300.0;
-    const ParsedQuantity parsed = parse_quantity(options.min_green, unit("s"));
-    if (!parsed.problem.empty()) {
-        throw InputError(fmt::format("--min-green: value '{}' {}", options.min_green, parsed.problem));
-    }
-    if (parsed.si < 1.0 || parsed.si > kLongest_s) {
-        throw InputError(fmt::format("--min-green: value '{}' is not allowed; allowed: 1 s to {:g} s",
-                                     options.min_green, kLongest_s));
+// Returns a quantity from the command line in SI units. Throws InputError unless it is from `low` to `high`.
+double option_quantity(const char* option, const std::string& text, const char* in, double low, double high) {
+    const ParsedQuantity parsed = parse_quantity(text, unit(in));
+    if (!parsed.problem.empty()) throw InputError(fmt::format("{}: value '{}' {}", option, text, parsed.problem));
+    if (parsed.si < low || parsed.si > high) {
+        const std::string with_unit = *in == 0 ? "" : std::string(" ") + in;
+        throw InputError(fmt::format("{}: value '{}' is not allowed; allowed: {:g}{} to {:g}{}", option, text, low,
+                                     with_unit, high, with_unit));
     }
     return parsed.si;
 }
@@ -102,9 +106,11 @@ void check_options(const SignalsCliOptions& options) {
     }
     const SignalsCliOptions defaults;
     const bool sets_search = !options.objective.empty() || options.seeds != defaults.seeds ||
-                             options.greens != defaults.greens || options.offsets != defaults.offsets;
+                             options.greens != defaults.greens || options.offsets != defaults.offsets ||
+                             options.range != defaults.range;
     if (!options.search && sets_search) {
-        throw InputError("--objective, --seeds, --greens and --offsets have an effect only with --search; add it");
+        throw InputError(
+            "--objective, --seeds, --greens, --offsets and --range have an effect only with --search; add it");
     }
 }
 
@@ -128,6 +134,7 @@ std::string command_of(const SignalsCliOptions& options) {
     add("--seeds", std::to_string(options.seeds), std::to_string(defaults.seeds));
     add("--greens", std::to_string(options.greens), std::to_string(defaults.greens));
     add("--offsets", std::to_string(options.offsets), std::to_string(defaults.offsets));
+    add("--range", options.range, defaults.range);
     return command;
 }
 
@@ -217,7 +224,7 @@ SearchOutcome search_times(const Scenario& scenario, const std::vector<Populatio
         outcome.has_violations = outcome.has_violations || table.totals.runs_with_violations > 0;
         tables.emplace_back(one.sweep.settings().name + ".csv", table.csv);
         outcome.searches.push_back(search_results(scenario, table.csv, *one.start, options.objective));
-        fmt::print("\n{}", search_text(scenario, outcome.searches.back()));
+        fmt::print("\n{}", search_text(scenario, outcome.searches.back(), shortest_greens_s(scenario, timing)));
     }
     tables.emplace_back("search.csv", search_csv(outcome.searches));
     return outcome;
@@ -243,31 +250,39 @@ void write_results(const SignalsCliOptions& options, const Scenario& scenario, c
     draw_figures(figures, folder);
 }
 
-// Prints the options and the YAML that apply the best known times of each population.
-void print_times(const Scenario& scenario, const std::vector<PopulationTiming>& timings,
-                 const std::vector<TimingSearch>& searches) {
-    fmt::print("\nApply the times{}:\n", searches.empty() ? "" : " of the best setting");
-    for (const PopulationTiming& one : timings) {
-        if (one.is_oversaturated()) continue;
-        SignalTimes times = one.times;
-        for (const TimingSearch& search : searches) {
-            if (search.population == one.saturation.population) times = search.all[search.best.front()].times;
-        }
-        fmt::print("\n{}", apply_text(scenario, one.saturation.population, times));
+// Returns the best known times of a population: those of the search if there is one, else the start values.
+SignalTimes best_times(const PopulationTiming& timing, const std::vector<TimingSearch>& searches) {
+    for (const TimingSearch& search : searches) {
+        if (search.population == timing.saturation.population) return search.all[search.best.front()].times;
     }
+    return timing.times;
 }
 
-void print_next(const SignalsCliOptions& options, bool all_oversaturated) {
-    const std::string file = shell_word(options.file);
-    if (all_oversaturated) {
+// Prints the options and the YAML that apply the times of each population, and commands to go on with.
+void print_times(const SignalsCliOptions& options, const Scenario& scenario,
+                 const std::vector<PopulationTiming>& timings, const SearchOptions& search,
+                 const std::vector<TimingSearch>& searches) {
+    const PopulationTiming* first = nullptr;
+    for (const PopulationTiming& one : timings) {
+        if (one.is_oversaturated()) continue;
+        if (first == nullptr) {
+            fmt::print("\nApply the times{}:\n", searches.empty() ? "" : " of the best setting");
+            first = &one;
+        }
+        fmt::print("\n{}", apply_text(scenario, one.saturation.population, best_times(one, searches)));
+    }
+    if (first == nullptr) {
         return fmt::print("\nNext: lower the demand, e.g. add --set 'demand.inflow=400 veh/h'\n");
     }
-    if (options.search) {
-        return fmt::print(
-            "\nNext: test the best setting with further seeds\n  {} {} --seed 101 and the options above\n",
-            program_command("stopline-run"), file);
+    CommonOptions next = options.common;
+    next.settings = search_overrides(scenario, first->saturation.population, search);
+    for (std::string& text : timing_overrides(scenario, best_times(*first, searches))) {
+        next.settings.push_back(std::move(text));
     }
-    fmt::print("\nNext: improve the times by simulation\n  add --search to this command\n");
+    if (!searches.empty()) next.seed = 1 + scenario.seed + static_cast<std::uint64_t>(options.seeds);
+    fmt::print("\nNext: run the scenario with the times of {}{}\n  {}\n", first->saturation.population,
+               searches.empty() ? "" : " and another seed", runnable(command_text("stopline-run", options.file, next)));
+    if (!options.search) fmt::print("or improve the times by simulation: add --search to this command\n");
 }
 
 ExitCode run(const SignalsCliOptions& options) {
@@ -279,13 +294,14 @@ ExitCode run(const SignalsCliOptions& options) {
     choose_populations(options.populations, scenario);
     TimingOptions timing;
     timing.threads = thread_count(options.common.threads);
-    timing.min_green_s = min_green_s(options);
+    timing.min_green_s = option_quantity("--min-green", options.min_green, "s", 1.0, 300.0);
     timing.pedestrians = options.pedestrians;
     search.overrides = options.common.settings;
     search.file = options.file;
     search.seeds = options.seeds;
     search.greens = options.greens;
     search.offsets = options.offsets;
+    search.range = option_quantity("--range", options.range, "", 1.05, 10.0);
     search.objective = options.objective == "throughput" ? Objective::throughput : Objective::delay;
     prepare_folder(folder_of(options));
     const std::vector<PopulationTiming> timings = [&] {
@@ -300,9 +316,7 @@ ExitCode run(const SignalsCliOptions& options) {
     if (options.search) outcome = search_times(scenario, timings, search, timing, options, tables);
     write_results(options, scenario, tables, outcome.searches);
     const auto is_oversaturated = [](const PopulationTiming& one) { return one.is_oversaturated(); };
-    const bool all = std::all_of(timings.begin(), timings.end(), is_oversaturated);
-    if (!all) print_times(scenario, timings, outcome.searches);
-    print_next(options, all);
+    print_times(options, scenario, timings, search, outcome.searches);
     const bool violated = std::any_of(timings.begin(), timings.end(),
                                       [](const PopulationTiming& one) { return one.saturation.has_violations; });
     if (violated || outcome.has_violations) fmt::print(stderr, "stopline-signals: a run has violations\n");

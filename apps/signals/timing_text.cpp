@@ -104,7 +104,8 @@ std::string apply_text(const Scenario& scenario, const std::string& population, 
     return fmt::format("{}:{}\n{}", population, options, timing_yaml(scenario, times));
 }
 
-std::string search_text(const Scenario& scenario, const TimingSearch& search) {
+std::string search_text(const Scenario& scenario, const TimingSearch& search,
+                        const std::array<double, kTimingStages>& shortest_s) {
     constexpr std::size_t kShown = 5;
     const bool is_delay = search.objective == Objective::delay;
     const int decimals = is_delay ? 1 : 0;
@@ -125,8 +126,16 @@ std::string search_text(const Scenario& scenario, const TimingSearch& search) {
     for (std::size_t k = 0; k < std::min(kShown, search.best.size()); ++k) {
         add(k == 0 ? "best" : fmt::format("{}.", k + 1), search.best[k]);
     }
-    return fmt::format("{}: {} settings, {} seeds\n{}", search.population, search.all.size(),
-                       search.all[search.start].delay_s.size(), table.text());
+    const std::size_t seeds = search.all[search.start].delay_s.size();
+    std::string text = fmt::format("{}: {} settings, {} seed{}\n{}", search.population, search.all.size(), seeds,
+                                   seeds == 1 ? "" : "s", table.text());
+    if (seeds > 1)
+        text += "  In brackets: 95 % confidence interval. Differences are taken between runs with equal seeds.\n";
+    if (is_best_at_border(search, shortest_s)) {
+        text +=
+            "  The best setting is at the border of the searched greens: widen the search, e.g. with --range 2.5.\n";
+    }
+    return text;
 }
 
 }  // namespace stopline

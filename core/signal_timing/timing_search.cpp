@@ -21,7 +21,6 @@ namespace {
 
 constexpr double kWarmUpShare = 0.25;   // of the run
 constexpr double kDelaySample_s = 0.5;  // interval between two samples of the delay
-constexpr double kSearchedRatio = 1.6;  // largest green over the start value, and the start value over the smallest
 
 bool has_several_intersections(const Scenario& scenario) {
     const GridSettings& grid = scenario.network.grid;
@@ -105,11 +104,11 @@ std::vector<RunMetric> timing_metrics(const Scenario& scenario, std::size_t popu
             {"state_hash", fmt::format("{:016x}", simulation.state_hash())}};
 }
 
-std::vector<double> searched_greens_s(double start_s, double shortest_s, int count) {
+std::vector<double> searched_greens_s(double start_s, double shortest_s, int count, double range) {
     std::vector<double> values_s{start_s};
     const int steps = std::max(count / 2, 1);
     for (int k = -steps; k <= steps; ++k) {
-        const double ratio = std::pow(kSearchedRatio, static_cast<double>(k) / steps);
+        const double ratio = std::pow(range, static_cast<double>(k) / steps);
         const double value_s = std::round(start_s * ratio);
         if (count > 1 && value_s >= shortest_s) values_s.push_back(value_s);
     }
@@ -135,10 +134,11 @@ SweepSettings search_settings(const Scenario& scenario, const PopulationTiming& 
     settings.scenario = options.file;
     settings.repetitions = options.seeds;
     const SignalTimes& times = start.times;
+    settings.axes.push_back(axis_of_times(
+        "green", "signal.green", searched_greens_s(times.green_s[0], shortest_s[0], options.greens, options.range)));
     settings.axes.push_back(
-        axis_of_times("green", "signal.green", searched_greens_s(times.green_s[0], shortest_s[0], options.greens)));
-    settings.axes.push_back(axis_of_times("cross_green", "signal.cross_green",
-                                          searched_greens_s(times.green_s[1], shortest_s[1], options.greens)));
+        axis_of_times("cross_green", "signal.cross_green",
+                      searched_greens_s(times.green_s[1], shortest_s[1], options.greens, options.range)));
     if (has_several_intersections(scenario)) {
         settings.axes.push_back(axis_of_times("offset", "signal.offset",
                                               searched_offsets_s(times.offset_s, start.cycle_s, options.offsets)));
@@ -209,6 +209,21 @@ MeanInterval difference_to_start(const TimingSearch& search, std::size_t setting
     std::vector<double> differences = search.all[setting].values(search.objective);
     for (std::size_t seed = 0; seed < differences.size(); ++seed) differences[seed] -= start[seed];
     return mean_interval(differences);
+}
+
+bool is_best_at_border(const TimingSearch& search, const std::array<double, kTimingStages>& shortest_s) {
+    const SearchedTimes& best = search.all[search.best.front()];
+    for (std::size_t stage = 0; stage < kTimingStages; ++stage) {
+        const auto is_shorter = [&](const SearchedTimes& a, const SearchedTimes& b) {
+            return a.times.green_s[stage] < b.times.green_s[stage];
+        };
+        const auto [low, high] = std::minmax_element(search.all.begin(), search.all.end(), is_shorter);
+        const double green_s = best.times.green_s[stage];
+        if (low->times.green_s[stage] == high->times.green_s[stage]) continue;
+        if (green_s == high->times.green_s[stage]) return true;
+        if (green_s == low->times.green_s[stage] && green_s > shortest_s[stage]) return true;
+    }
+    return false;
 }
 
 std::string search_csv(const std::vector<TimingSearch>& searches) {

@@ -29,8 +29,9 @@ struct SearchOptions {
     std::string file;                              // path of the scenario
     std::vector<std::string> populations_in_file;  // other names of populations are those of policies
     int seeds = 3;
-    int greens = 5;   // number of values of each green
-    int offsets = 6;  // number of offsets in a network of several intersections
+    int greens = 5;      // number of values of each green
+    int offsets = 6;     // number of offsets in a network of several intersections
+    double range = 1.6;  // largest green over the start value, and the start value over the smallest green
     Objective objective = Objective::delay;
 };
 
@@ -38,9 +39,9 @@ struct SearchOptions {
 std::vector<RunMetric> timing_metrics(const Scenario& scenario, std::size_t population,
                                       const std::function<bool()>& keep_going);
 
-// Returns the values of a green in the search: `count` whole seconds from start / 1.6 to start x 1.6 at equal ratios.
-// Values below `shortest_s` and repeated values are left out; the start value is always in the list.
-std::vector<double> searched_greens_s(double start_s, double shortest_s, int count);
+// Returns the values of a green in the search: `count` whole seconds from start / range to start x range at equal
+// ratios. Values below `shortest_s` and repeated values are left out; the start value is always in the list.
+std::vector<double> searched_greens_s(double start_s, double shortest_s, int count, double range);
 // Returns the offsets in the search: `count` whole seconds at equal distances within a cycle, and the start value.
 std::vector<double> searched_offsets_s(double start_s, double cycle_s, int count);
 
@@ -83,6 +84,10 @@ struct MeanInterval {
 MeanInterval mean_interval(const std::vector<double>& values);
 // Returns the difference of a setting to the start values, paired by seed.
 MeanInterval difference_to_start(const TimingSearch& search, std::size_t setting);
+
+// Returns true if the best setting has the longest or shortest green of a search with several values of it, so that a
+// setting beyond may be better. The shortest green that is allowed is no border.
+bool is_best_at_border(const TimingSearch& search, const std::array<double, kTimingStages>& shortest_s);
 
 // Returns search.csv, with one row for each population and setting.
 std::string search_csv(const std::vector<TimingSearch>& searches);

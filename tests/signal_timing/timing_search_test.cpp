@@ -12,10 +12,11 @@ namespace stopline {
 namespace {
 
 TEST(TimingSearch, GreensLieAroundTheStartValue) {
-    EXPECT_EQ(searched_greens_s(20.0, 5.0, 5), (std::vector<double>{13, 16, 20, 25, 32}));
-    EXPECT_EQ(searched_greens_s(20.0, 15.0, 5), (std::vector<double>{16, 20, 25, 32}));
-    EXPECT_EQ(searched_greens_s(20.0, 5.0, 1), (std::vector<double>{20}));
-    EXPECT_EQ(searched_greens_s(2.0, 1.0, 5), (std::vector<double>{1, 2, 3}));
+    EXPECT_EQ(searched_greens_s(20.0, 5.0, 5, 1.6), (std::vector<double>{13, 16, 20, 25, 32}));
+    EXPECT_EQ(searched_greens_s(20.0, 15.0, 5, 1.6), (std::vector<double>{16, 20, 25, 32}));
+    EXPECT_EQ(searched_greens_s(20.0, 5.0, 1, 1.6), (std::vector<double>{20}));
+    EXPECT_EQ(searched_greens_s(20.0, 5.0, 3, 2.0), (std::vector<double>{10, 20, 40}));
+    EXPECT_EQ(searched_greens_s(2.0, 1.0, 5, 1.6), (std::vector<double>{1, 2, 3}));
 }
 
 TEST(TimingSearch, OffsetsCoverTheCycle) {
@@ -51,6 +52,14 @@ TEST(TimingSearch, FindsTheBestSetting) {
     EXPECT_NEAR(difference.interval.high - difference.interval.low, 2.0 * 12.7062 * 0.5, 1e-3);
     const TimingSearch throughput = search_results(scenario, kTable, start_of(20.0, 20.0), Objective::throughput);
     EXPECT_EQ(throughput.best, (std::vector<std::size_t>{2, 0, 1}));
+    // The best setting has the longest green, and the shortest cross green.
+    EXPECT_TRUE(is_best_at_border(delay, {5.0, 5.0}));
+    TimingSearch inner = delay;
+    inner.all.push_back({{{40.0, 15.0}, 0.0}, 71.0, {30.0, 30.0}, {3500.0, 3500.0}});
+    EXPECT_FALSE(is_best_at_border(inner, {5.0, 5.0}));
+    inner.best = {0};
+    EXPECT_TRUE(is_best_at_border(inner, {5.0, 5.0}));
+    EXPECT_FALSE(is_best_at_border(inner, {20.0, 5.0}));
 }
 
 TEST(TimingSearch, OneSeedHasNoInterval) {
