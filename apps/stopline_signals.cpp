@@ -193,8 +193,8 @@ void run_searches(std::vector<PreparedSearch>& searches, int threads) {
         }
         done += one.todo.size();
     }
-    if (missing == 0) return fmt::print("All {} runs were done before.\n", runs);
-    fmt::print("{} runs, {} of them now\n", runs, missing);
+    if (missing == 0) return fmt::print("\nAll {} runs were done before.\n", runs);
+    fmt::print("\n{} runs, {} of them now\n", runs, missing);
 }
 
 using NamedText = std::pair<std::string, std::string>;
@@ -309,7 +309,7 @@ ExitCode run(const SignalsCliOptions& options) {
         timing.on_progress = [&bar](double share) { return bar.update(share); };
         return time_signals(scenario, timing);
     }();
-    fmt::print("{}\n\n{}\n", scenario.title.empty() ? scenario.name : scenario.title, timing_text(scenario, timings));
+    fmt::print("{}\n\n{}", scenario.title.empty() ? scenario.name : scenario.title, timing_text(scenario, timings));
     std::vector<NamedText> tables{{"timing.csv", timing_csv(scenario, timings)},
                                   {"lanes.csv", timing_lanes_csv(timings)}};
     SearchOutcome outcome;

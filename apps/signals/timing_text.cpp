@@ -70,7 +70,8 @@ std::string assumptions_text(const std::vector<PopulationTiming>& timings, bool 
     if (is_network) {
         notes.emplace_back(
             "All intersections have the same greens. Each row shows the lane with the most demand in the network. The "
-            "offset lets vehicles at the speed limit meet green eastwards (in a single column, northwards).");
+            "offset lets vehicles at the speed limit meet green eastwards (in a single column, northwards). The delay "
+            "by formula is that of arrivals without platoons.");
     }
     notes.emplace_back(
         "d1 is the delay of evenly spaced arrivals, d2 that of random arrivals (HCM 2000, equations 16-11 and 16-12). "

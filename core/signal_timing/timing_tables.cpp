@@ -25,8 +25,8 @@ bool has_offset(const Scenario& scenario) {
 
 std::string oversaturation_text(const PopulationTiming& timing) {
     std::string text = fmt::format(
-        "{}: the demand is too high for this intersection with any cycle. The critical flow ratios sum to {:.2f}; "
-        "Webster's cycle needs less than {}.\n",
+        "{}: the demand is too high for any cycle.\n  The critical flow ratios sum to {:.2f}; Webster's cycle needs less "
+        "than {}.\n",
         timing.saturation.population, timing.flow_ratio_sum, kMaxFlowRatioSum);
     for (const LaneTiming& lane : timing.lanes) {
         if (!lane.is_critical) continue;

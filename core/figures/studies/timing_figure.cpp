@@ -67,7 +67,7 @@ Figure timing_figure(const TimingSearch& search) {
         "set xrange [-0.5:{}.5]\nset yrange [-0.5:{}.5]\nset xtics ({})\nset ytics ({})\nunset key\nunset grid\n"
         "set palette defined (0 '{}', 1 '{}')\nset object rectangle center {},{} size 0.96,0.94 fs empty border lc rgb "
         "'#d55e00' lw 4 front\n"
-        "plot '{}' using 3:4:5 with image, '{}' using 3:4:(sprintf('%.{}f', $5)) with labels\n",
+        "plot '{}' using 3:4:(0.5):(0.5):5 with boxxyerror fs solid noborder lc palette, '{}' using 3:4:(sprintf('%.{}f', $5)) with labels\n",
         gnuplot_text(title), over_offset ? "offset [s]" : "green, south-north [s]", greens.size() - 1, rows.size() - 1,
         tics(greens), tics(rows), is_delay ? "#ffffff" : "#7fb8e6", is_delay ? "#7fb8e6" : "#ffffff",
         place_in(greens, start.green_s[0]), place_in(rows, y_of(start, over_offset)), file, file, is_delay ? 1 : 0);

@@ -1,5 +1,5 @@
-// Descriptions of the columns in the tables of stopline-calibrate, stopline-startup, stopline-compare and
-// stopline-scorecard.
+// Descriptions of the columns in the tables of stopline-calibrate, stopline-startup, stopline-compare,
+// stopline-scorecard and stopline-signals.
 #include "runs/tables/column_docs.h"
 
 #include <utility>
@@ -117,11 +117,91 @@ std::vector<TableDoc> other_program_tables() {
     };
 }
 
+std::vector<TableDoc> signal_timing_tables() {
+    const ColumnDoc level{"level_of_service", "", "", "level of service by the HCM, A to F"};
+    const std::string objective_unit = "of the objective";
+    return {
+        {"signals/timing.csv",
+         "One row for each population. Cells of times are empty if the demand is too high for a timing.",
+         with_population({{"flow_ratio_sum", "", "", "sum of the critical flow ratios of both streets"},
+                          {"lost_time_s", "s", "", "lost time in each cycle"},
+                          {"webster_cycle_s", "s", "", "Webster's cycle, before greens are rounded"},
+                          {"cycle_s", "s", "", "cycle"},
+                          {"green_s", "s", "", "green of the streets from west to east, `signal.green`"},
+                          {"cross_green_s", "s", "", "green of the streets from south to north, `signal.cross_green`"},
+                          {"offset_s", "s", "", "`signal.offset`; empty for a single intersection"},
+                          {"saturation_degree", "", "", "highest degree of saturation of a lane: demand over capacity"},
+                          {"delay_s", "s", "", "mean control delay of all vehicles by the HCM"},
+                          level})},
+        {"signals/lanes.csv",
+         "One row for each population, street, and place of a lane in its approach. The demand is that of the lane with "
+         "the most demand.",
+         with_population(
+             {{"street", "", "", "`west-east` or `south-north`"},
+              {"lane", "", "", "place of the lane in its approach; 0: leftmost"},
+              {"busiest_lane", "", "", "name of the lane with the most demand"},
+              {"demand_veh_h", "veh/h", "", "demand of this lane"},
+              {"left_percent", "%", "", "share of its vehicles that turn left"},
+              {"right_percent", "%", "", "share of its vehicles that turn right"},
+              {"saturation_flow_veh_h", "veh/h", "saturated run", "measured saturation flow"},
+              {"flow_ratio", "", "", "demand over saturation flow"},
+              {"critical", "", "", "1 if the flow ratio is the highest of the street, else 0"},
+              {"startup_lost_time_s", "s", "saturated run", "measured start-up lost time of the street"},
+              {"lost_time_s", "s", "saturated run",
+               "lost time of the street in each cycle: start-up lost time, yellow and all red, minus the part of these "
+               "that vehicles use"},
+              {"green_s", "s", "", "displayed green"},
+              {"effective_green_s", "s", "", "green, yellow and all red minus `lost_time_s`"},
+              {"capacity_veh_h", "veh/h", "", "capacity"},
+              {"saturation_degree", "", "", "demand over capacity"},
+              {"uniform_delay_s", "s", "", "uniform delay d1 of the HCM"},
+              {"incremental_delay_s", "s", "", "incremental delay d2 of the HCM, for random arrivals"},
+              {"delay_s", "s", "", "d1 plus d2"},
+              level})},
+        {"signals/search_POPULATION.csv",
+         "With `--search`. One row for each run.",
+         {{"point", "", "", "number of the run"},
+          {"green_s", "s", "", "`signal.green`"},
+          {"cross_green_s", "s", "", "`signal.cross_green`"},
+          {"offset_s", "s", "", "`signal.offset`; only for several intersections"},
+          kPopulationColumn,
+          {"seed", "", "", "seed of the run"},
+          {"delay_s", "s", "last 75 % of the run",
+           "delay per vehicle that leaves: time in which vehicles do not drive at the speed limit, and time in which they "
+           "wait to enter"},
+          {"throughput_veh_h", "veh/h", "last 75 % of the run", "vehicles that leave the network"},
+          {"backlog", "veh", "end of the run", "vehicles that should have entered by then but found no room"},
+          {"overlaps", "", "run", "overlapping vehicles"},
+          {"red_entries", "", "run", "avoidable entries on red"},
+          {"lost_vehicles", "veh", "run", "entered minus exited minus present vehicles"},
+          {"updates", "", "run", "number of vehicles in the network, summed over all steps"},
+          {"state_hash", "", "end of the run", "hash of the final state"}}},
+        {"signals/search.csv", "With `--search`. One row for each population and setting, with means over the seeds.",
+         with_population(
+             {{"green_s", "s", "", "`signal.green`"},
+              {"cross_green_s", "s", "", "`signal.cross_green`"},
+              {"offset_s", "s", "", "`signal.offset`"},
+              {"cycle_s", "s", "", "cycle"},
+              {"runs", "", "", "number of seeds"},
+              {"delay_s", "s", "seeds", "mean of `delay_s`"},
+              {"throughput_veh_h", "veh/h", "seeds", "mean of `throughput_veh_h`"},
+              {"objective", "", "", "column that the search optimises"},
+              {"mean", objective_unit, "seeds", "its mean"},
+              {"ci95_low", objective_unit, "seeds", "lower bound of its 95 % confidence interval; empty for one seed"},
+              {"ci95_high", objective_unit, "seeds", "upper bound of this interval"},
+              {"difference", objective_unit, "seeds", "mean difference to the start values, by seed"},
+              {"difference_ci95_low", objective_unit, "seeds", "lower bound of its 95 % confidence interval"},
+              {"difference_ci95_high", objective_unit, "seeds", "upper bound of this interval"},
+              {"is_start", "", "", "1 for the start values, else 0"}})},
+    };
+}
+
 }  // namespace
 
 std::vector<TableDoc> program_table_docs() {
     std::vector<TableDoc> tables = calibration_tables();
     for (TableDoc& table : other_program_tables()) tables.push_back(std::move(table));
+    for (TableDoc& table : signal_timing_tables()) tables.push_back(std::move(table));
     return tables;
 }
 
