@@ -156,13 +156,14 @@ TEST(Saturation, EqualsTheClosedFormOfTheSpacingPolicy) {
 }
 
 TEST(Saturation, LeftTurnsLowerTheFlowOfTheirLane) {
-    const Scenario scenario = timed_intersection({"demand.left=20 %", "populations=[CTG-Ref]"});
+    const Scenario scenario = timed_intersection({"demand.left=20 %", "fidelity=meso", "meso=passages"});
     const Saturation saturation = measure_saturation(scenario, 0, lane_demands(build_model(scenario, 0)));
     EXPECT_TRUE(saturation.lanes[0].turns_left);
     EXPECT_FALSE(saturation.lanes[1].turns_left);
     EXPECT_LT(saturation.lanes[0].flow_veh_h, 0.9 * saturation.lanes[1].flow_veh_h);
     // With less oncoming traffic, more vehicles turn.
-    const Scenario quiet = timed_intersection({"demand.left=20 %", "demand.inflow=100 veh/h"});
+    const Scenario quiet =
+        timed_intersection({"demand.left=20 %", "demand.inflow=100 veh/h", "fidelity=meso", "meso=passages"});
     const Saturation freer = measure_saturation(quiet, 0, lane_demands(build_model(quiet, 0)));
     EXPECT_GT(freer.lanes[0].flow_veh_h, 1.1 * saturation.lanes[0].flow_veh_h);
 }

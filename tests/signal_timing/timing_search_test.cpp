@@ -108,6 +108,22 @@ TEST(TimingSearch, CountsVehiclesThatWaitToEnter) {
     EXPECT_GT(metric(metrics, "delay_s"), 200.0);
 }
 
+// One-way traffic from the west meets green at each intersection if the offset is the travel time between them.
+TEST(TimingSearch, OffsetOfTravelTimeServesOneWayTraffic) {
+    const auto delay_s = [](const std::string& offset) {
+        return metric(
+            timing_metrics(timed_intersection({"network.kind=grid", "network.grid.columns=4",
+                                               "network.grid.column_spacing=192.5 m", "signal.green=19 s",
+                                               "demand.approaches=[c0r0_west_in]", "fidelity=meso", "meso=passages",
+                                               "duration=1200 s", "measure.window=300 s", "signal.offset=" + offset}),
+                           0, {}),
+            "delay_s");
+    };
+    const double progression_s = delay_s("14 s");  // 192.5 m at 50 km/h
+    EXPECT_LT(progression_s, 0.6 * delay_s("0 s"));
+    EXPECT_LT(progression_s, 0.6 * delay_s("40 s"));
+}
+
 TEST(TimingSearch, VariesTheTimesOfTheSignal) {
     const Scenario scenario =
         timed_intersection({"network.kind=grid", "network.grid.columns=2", "duration=600 s", "measure.window=300 s"});

@@ -111,6 +111,13 @@ check_all startup startup 2
 check_all strings strings 5
 for table in summary positions gains sweep border; do check_complete "strings/$table.csv"; done
 
+"$STOPLINE_BIN/stopline-signals" "$STOPLINE_SOURCE/scenarios/arterial.yaml" --set demand.kind=rate \
+    --set network.grid.columns=2 --set 'duration=120 s' --set 'measure.window=60 s' --population CTG-Ref --search \
+    --seeds 1 --greens 1 --offsets 1 --no-figures --output "$work/signals" >"$work/stdout" || fail "stopline-signals: exit code $?"
+mv "$work/signals/search_CTG-Ref.csv" "$work/signals/search_POPULATION.csv"
+check_all signals signals 4
+for table in timing lanes search search_POPULATION; do check_complete "signals/$table.csv"; done
+
 # Tests the check itself: a column without a description must be reported.
 head -n 1 "$work/grid/delays.csv" | sed 's/$/,new_column/' >"$work/extra.csv"
 before=$failures

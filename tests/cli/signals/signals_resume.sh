@@ -18,8 +18,6 @@ search "$work/whole"
 runs=$(sed -n 's/ runs, .* of them now$//p' "$work/stdout")
 [ "${runs:-0}" -ge 30 ] || fail "the search has '$runs' runs"
 
-stored() { [ -s "$1/search_CTG-Ref.sqlite-wal" ]; }
-
 # The kill waits for the store, so that it hits the search and not the measurement of the saturation flow.
 now=0
 for seconds in 0.5 0.1 2 0.02; do
@@ -27,7 +25,7 @@ for seconds in 0.5 0.1 2 0.02; do
     search "$work/killed"
     "${command[@]}" >/dev/null 2>&1 &
     pid=$!
-    wait_for stored "$work/killed" || fail "there is no store"
+    wait_for [ -s "$work/killed/search_CTG-Ref.sqlite-wal" ] || fail "there is no store"
     sleep $seconds
     kill -KILL $pid 2>/dev/null
     wait $pid 2>/dev/null
@@ -46,7 +44,7 @@ cmp "$work/whole/search_CTG-Ref.csv" "$work/killed/search_CTG-Ref.csv" || fail "
 search "$work/stopped"
 "${command[@]}" >/dev/null 2>"$work/stderr" &
 pid=$!
-wait_for stored "$work/stopped" || fail "there is no store"
+wait_for [ -s "$work/stopped/search_CTG-Ref.sqlite-wal" ] || fail "there is no store"
 kill -INT $pid
 code=0
 wait $pid || code=$?
