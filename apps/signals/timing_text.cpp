@@ -38,7 +38,7 @@ std::string lanes_table(const std::vector<PopulationTiming>& timings) {
     return table.text();
 }
 
-std::string signals_table(const std::vector<PopulationTiming>& timings, bool has_offset) {
+std::string signals_table(const std::vector<PopulationTiming>& timings, bool shows_offset) {
     TextTable table("lrrrrrrrrl");
     table.add_row({"population", "flow ratios", "lost time", "Webster", "cycle", "green", "cross green", "offset",
                    "delay", "level of"});
@@ -47,7 +47,7 @@ std::string signals_table(const std::vector<PopulationTiming>& timings, bool has
         table.add_row({one.saturation.population, number_cell(one.flow_ratio_sum, 3),
                        number_cell(one.lost_time_s[0] + one.lost_time_s[1], 1), number_cell(one.webster_cycle_s, 1),
                        number_cell(one.cycle_s, 0), number_cell(one.times.green_s[0], 0),
-                       number_cell(one.times.green_s[1], 0), has_offset ? number_cell(one.times.offset_s, 0) : "-",
+                       number_cell(one.times.green_s[1], 0), shows_offset ? number_cell(one.times.offset_s, 0) : "-",
                        number_cell(one.delay_s, 1), level_text(one.delay_s, one.highest_saturation())});
     }
     return table.text();

@@ -30,7 +30,7 @@ bool has_several_intersections(const Scenario& scenario) {
 // Returns how many vehicles are delayed: the sum over all vehicles of 1 - speed / speed limit, and those that wait to
 // enter the network.
 double delayed_vehicles(const Model& model, const State& state) {
-    double delayed = static_cast<double>(insertion_backlog(model, state));
+    auto delayed = static_cast<double>(insertion_backlog(model, state));
     const VehicleArrays& v = state.vehicles;
     for (std::size_t lane = 0; lane < model.graph.lanes.size(); ++lane) {
         const LaneBlock& block = state.blocks[lane];

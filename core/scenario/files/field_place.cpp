@@ -9,10 +9,12 @@ namespace stopline {
 
 std::string field_place(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                         const std::string& path) {
-    for (auto text = overrides.rbegin(); text != overrides.rend(); ++text) {
-        // An override of a section such as demand sets the fields in it, too.
-        if ((path + ".").starts_with(text->substr(0, text->find('=')) + ".")) return fmt::format("--set '{}'", *text);
+    // An override of a section such as demand sets the fields in it, too. The last override holds.
+    std::string place;
+    for (const std::string& text : overrides) {
+        if ((path + ".").starts_with(text.substr(0, text.find('=')) + ".")) place = fmt::format("--set '{}'", text);
     }
+    if (!place.empty()) return place;
     const SourceNode root = read_yaml_file(file);
     const SourceNode* node = &root;
     for (const PathStep& step : path_steps(path)) {
