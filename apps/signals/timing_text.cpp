@@ -55,9 +55,8 @@ std::string signals_table(const std::vector<PopulationTiming>& timings, bool sho
 
 std::string assumptions_text(const std::vector<PopulationTiming>& timings, bool is_network) {
     std::vector<std::string> notes{
-        fmt::format("Saturation flow and start-up lost time are measured in a run of the intersection with saturated "
-                    "demand, with its turn shares and {:g} s of green. * marks the lane that determines the green.",
-                    kSaturationGreen_s)};
+        "Saturation flow and lost times are measured in runs of the intersection with saturated demand and its turn "
+        "shares, until the greens of the run and of the result agree. * marks the lane that determines the green."};
     const auto yields = [](const LaneSaturation& lane) { return lane.turns_left; };
     const auto has_left = [&](const PopulationTiming& one) {
         return std::any_of(one.saturation.lanes.begin(), one.saturation.lanes.end(), yields);

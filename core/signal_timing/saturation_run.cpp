@@ -56,36 +56,49 @@ struct LaneSums {
 
 double mean_or_nan(const std::vector<double>& values) { return values.empty() ? kNan : mean_of(values); }
 
-// Sets the flows of the lanes of a stage by their headways, and the lost time of the stage.
-void finish_stage(int stage, const Scenario& scenario, std::span<const LaneSums> sums, Saturation& result) {
-    const double change_s = scenario.signal.yellow_s + scenario.signal.all_red_s;
-    std::vector<double> startup_s;
-    std::vector<double> end_gain_s;
-    std::vector<double> startup_with_left_s;
-    const std::size_t first = at(stage) * sums.size();
+// Sets the headways and start-up lost times of the lanes of a stage. Those that the run does not have are of an earlier
+// measurement.
+void set_headways(std::span<const LaneSums> sums, const Saturation* earlier, std::size_t first, Saturation& result) {
     for (std::size_t index = 0; index < sums.size(); ++index) {
         LaneSaturation& lane = result.lanes[first + index];
-        const double headway_s = mean_or_nan(sums[index].saturation_headway_s);
         lane.vehicles_per_green = mean_or_nan(sums[index].vehicles_per_green);
         lane.startup_lost_time_s = mean_or_nan(sums[index].startup_lost_time_s);
-        if (std::isnan(headway_s)) continue;
-        lane.flow_veh_h = 3600.0 / headway_s;
+        const double headway_s = mean_or_nan(sums[index].saturation_headway_s);
+        if (!std::isnan(headway_s)) {
+            lane.flow_veh_h = 3600.0 / headway_s;
+        } else if (earlier != nullptr) {
+            lane.flow_veh_h = earlier->lanes[first + index].flow_veh_h;
+            lane.startup_lost_time_s = earlier->lanes[first + index].startup_lost_time_s;
+        }
+    }
+}
+
+// Sets the lost time of a stage from its lanes without left turns.
+void set_lost_time(int stage, const Scenario& saturated, std::size_t lanes, Saturation& result) {
+    std::vector<double> startup_s;
+    std::vector<double> startup_with_left_s;
+    std::vector<double> end_gain_s;
+    for (std::size_t index = 0; index < lanes; ++index) {
+        const LaneSaturation& lane = result.lanes[at(stage) * lanes + index];
+        if (std::isnan(lane.startup_lost_time_s)) continue;
         (lane.turns_left ? startup_with_left_s : startup_s).push_back(lane.startup_lost_time_s);
         if (lane.turns_left) continue;
-        const double gain_s = lane.vehicles_per_green * headway_s + lane.startup_lost_time_s - kSaturationGreen_s;
-        end_gain_s.push_back(std::clamp(gain_s, 0.0, change_s));
+        const double used_s = lane.vehicles_per_green * 3600.0 / lane.flow_veh_h;
+        end_gain_s.push_back(used_s + lane.startup_lost_time_s - saturated.signal.group_green_s(stage));
     }
     StageLostTime& lost = result.lost[at(stage)];
     const std::vector<double>& known_s = startup_s.empty() ? startup_with_left_s : startup_s;
     lost.startup_s = known_s.empty() ? 0.0 : mean_of(known_s);
+    const double change_s = saturated.signal.yellow_s + saturated.signal.all_red_s;
     lost.end_gain_s = end_gain_s.empty() ? std::min(kUsualEndGain_s, change_s) : mean_of(end_gain_s);
 }
 
 // Sets the flows of lanes with left turns, and of lanes on which no queue of five vehicles passed.
-void set_flows_by_count(Saturation& result) {
+void set_flows_by_count(const Scenario& saturated, Saturation& result) {
     for (LaneSaturation& lane : result.lanes) {
         if (!lane.turns_left && lane.flow_veh_h > 0.0) continue;
-        const double green_s = result.lost[at(lane.stage)].effective_green_s(kSaturationGreen_s);
+        const double displayed_s = saturated.signal.group_green_s(lane.stage);
+        const double green_s = std::max(result.lost[at(lane.stage)].effective_green_s(displayed_s), 1.0);
         lane.flow_veh_h = 3600.0 * lane.vehicles_per_green / green_s;
     }
 }
@@ -149,13 +162,13 @@ bool turns_left(const std::vector<LaneDemand>& demands, int stage, int index) {
     });
 }
 
-void check_lanes(const Saturation& result) {
+void check_lanes(const Scenario& saturated, const Saturation& result) {
     for (const LaneSaturation& lane : result.lanes) {
         if (lane.flow_veh_h > 0.0) continue;
         throw InputError(fmt::format(
             "{}: no vehicle passes on lane {} (from the left) of the street {} in a saturated run with {:g} s of green; "
             "left-turning vehicles may find no gap. Add a lane for left turns, or set fewer of them (demand.left)",
-            result.population, lane.index, kTimingStreets[lane.stage], kSaturationGreen_s));
+            result.population, lane.index, kTimingStreets[lane.stage], saturated.signal.group_green_s(lane.stage)));
     }
 }
 
@@ -165,13 +178,13 @@ std::size_t Saturation::place(int stage, int index) const {
     return at(stage) * (lanes.size() / kTimingStages) + at(index);
 }
 
-Scenario saturated_scenario(const Scenario& scenario) {
+Scenario saturated_scenario(const Scenario& scenario, const StageGreens& greens_s) {
     Scenario saturated = scenario;
     saturated.network.kind = "intersection";
     saturated.duration_s = 0.0;  // until the end of the measured cycles
     saturated.signal.first_green_s = 1.0;
-    saturated.signal.green_s = kSaturationGreen_s;
-    saturated.signal.cross_green_s = 0.0;
+    saturated.signal.green_s = greens_s[0];
+    saturated.signal.cross_green_s = greens_s[1];
     saturated.signal.offset_s = 0.0;
     saturated.demand.kind = "saturated";
     saturated.demand.start = "queued";
@@ -183,10 +196,10 @@ Scenario saturated_scenario(const Scenario& scenario) {
     return saturated;
 }
 
-Saturation measure_saturation(const Scenario& scenario, std::size_t population, const std::vector<LaneDemand>& demands,
+Saturation measure_saturation(const Scenario& scenario, std::size_t population, const SaturationInput& input,
                               const std::function<bool(double)>& keep_going) {
     constexpr double kFirstRunShare = 0.5;  // of the work, for the progress
-    const Scenario saturated = saturated_scenario(scenario);
+    const Scenario saturated = saturated_scenario(scenario, input.greens_s);
     const Model model = build_model(saturated, population);
     const TimeWindow window = measured_window(saturated);
     PassageCounter counter(model.graph, window);
@@ -207,7 +220,7 @@ Saturation measure_saturation(const Scenario& scenario, std::size_t population, 
     for (int stage = 0; stage < kTimingStages; ++stage) {
         for (std::size_t index = 0; index < lanes; ++index) {
             const int place = static_cast<int>(index);
-            result.lanes.push_back({stage, place, turns_left(demands, stage, place)});
+            result.lanes.push_back({stage, place, turns_left(input.demands, stage, place)});
         }
     }
     std::vector<LaneSums> sums(result.lanes.size());
@@ -222,17 +235,18 @@ Saturation measure_saturation(const Scenario& scenario, std::size_t population, 
         sum.startup_lost_time_s.push_back(one.startup_lost_time_s);
     }
     for (int stage = 0; stage < kTimingStages; ++stage) {
-        finish_stage(stage, saturated, std::span(sums).subspan(at(stage) * lanes, lanes), result);
+        set_headways(std::span(sums).subspan(at(stage) * lanes, lanes), input.earlier, at(stage) * lanes, result);
+        set_lost_time(stage, saturated, lanes, result);
     }
     const auto is_left = [](const LaneSaturation& lane) { return lane.turns_left; };
     if (std::any_of(result.lanes.begin(), result.lanes.end(), is_left)) {
         const auto report = [&](double share) {
             return !keep_going || keep_going(kFirstRunShare + (1.0 - kFirstRunShare) * share);
         };
-        measure_left_lanes(saturated, population, demands, report, result);
+        measure_left_lanes(saturated, population, input.demands, report, result);
     }
-    set_flows_by_count(result);
-    check_lanes(result);
+    set_flows_by_count(saturated, result);
+    check_lanes(saturated, result);
     return result;
 }
 

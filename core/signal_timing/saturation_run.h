@@ -1,9 +1,11 @@
 // Measures the saturation flow and the lost times of an intersection by runs with saturated demand: same lanes, turn
-// shares, vehicles, driver and fidelity as the scenario, but a long green and an endless queue on each approach.
+// shares, vehicles, driver and fidelity as the scenario, and an endless queue on each approach.
 //
-// A lane without left turns: the flow is that of the mean headway from the fifth vehicle of a queue on, and the start-up
-// lost time is that of the first four vehicles (measure/discharge.h). The end gain e is the part of yellow and all red
-// that vehicles use: passed vehicles x saturation headway + start-up lost time - green.
+// A lane without left turns: the flow is that of the mean headway h from the fifth vehicle of a queue on, and the start-up
+// lost time is that of the first four vehicles (measure/discharge.h). The end gain e follows from the number n of vehicles
+// that pass in a green g, its yellow and all red: e = n h + start-up lost time - g. So n h is the effective green of the
+// run, and the capacity is exact for the greens of the run. With short greens, vehicles still accelerate and can stop at
+// yellow. Flow and end gain are then lower, so the measurement must be repeated with the greens of the result.
 //
 // A lane with left turns: vehicles that yield to oncoming traffic hold those behind them, so the headways of unhindered
 // queues would overestimate its flow. A second run therefore saturates only one leg of each street, and lets vehicles
@@ -21,7 +23,7 @@
 
 namespace stopline {
 
-inline constexpr double kSaturationGreen_s = 40.0;  // green of both stages in the run
+inline constexpr double kSaturationGreen_s = 40.0;  // green of both stages in the first measurement
 inline constexpr int kSaturationCycles = 10;        // measured cycles, after one cycle of warm-up
 inline constexpr int kLeftTurnCycles = 20;          // measured cycles of the second run, after three cycles of warm-up
 
@@ -37,7 +39,7 @@ struct LaneSaturation {
 
 struct StageLostTime {
     double startup_s = 0.0;
-    double end_gain_s = 0.0;  // part of yellow and all red that vehicles use
+    double end_gain_s = 0.0;  // part of yellow and all red that vehicles use; below 0: part of the green is not used
 
     // Returns the lost time of the stage in each cycle.
     double total_s(double yellow_s, double all_red_s) const { return startup_s + yellow_s + all_red_s - end_gain_s; }
@@ -55,13 +57,22 @@ struct Saturation {
     std::size_t place(int stage, int index) const;  // index of a lane in `lanes`
 };
 
-// Returns the scenario of the first run: the intersection of the scenario alone, with saturated demand.
-Scenario saturated_scenario(const Scenario& scenario);
+using StageGreens = std::array<double, kTimingStages>;  // displayed greens, s
 
-// Measures one population. `demands` are those of the scenario, which the second run needs. `keep_going` gets the
-// completed share, and returns false to stop the run, which throws Interrupted. Throws InputError if no vehicle passes
-// on one of the lanes.
-Saturation measure_saturation(const Scenario& scenario, std::size_t population, const std::vector<LaneDemand>& demands,
+// Returns the scenario of the first run: the intersection of the scenario alone, with saturated demand and these greens.
+Scenario saturated_scenario(const Scenario& scenario, const StageGreens& greens_s);
+
+struct SaturationInput {
+    std::vector<LaneDemand> demands;  // those of the scenario, for the oncoming traffic of left turns
+    StageGreens greens_s{kSaturationGreen_s, kSaturationGreen_s};
+    // An earlier measurement. Its headways and start-up lost times hold for lanes on which no queue of five vehicles
+    // passes in these greens. Null: none.
+    const Saturation* earlier = nullptr;
+};
+
+// Measures one population. `keep_going` gets the completed share, and returns false to stop the run, which throws
+// Interrupted. Throws InputError if no vehicle passes on one of the lanes.
+Saturation measure_saturation(const Scenario& scenario, std::size_t population, const SaturationInput& input,
                               const std::function<bool(double)>& keep_going = {});
 
 }  // namespace stopline

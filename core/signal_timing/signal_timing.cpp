@@ -160,13 +160,38 @@ PopulationTiming timing_of(const Scenario& scenario, const std::vector<LaneDeman
     return timing;
 }
 
+namespace {
+
+// Measures a population with the greens of its timing, until both agree.
+PopulationTiming time_population(const Scenario& scenario, std::size_t population, const TimingOptions& options,
+                                 const std::function<bool(double)>& report) {
+    constexpr int kRounds = 8;         // the greens of some populations alternate between two values
+    constexpr double kClose_s = 1.01;  // greens are whole seconds
+    SaturationInput input;
+    input.demands = lane_demands(build_model(scenario, population));
+    PopulationTiming timing;
+    for (int round = 0; round < kRounds; ++round) {
+        const auto report_round = [&](double share) { return report((round + share) / kRounds); };
+        const Saturation saturation = measure_saturation(scenario, population, input, report_round);
+        timing = timing_of(scenario, input.demands, saturation, options);
+        if (timing.is_oversaturated()) break;
+        const StageGreens& greens_s = timing.times.green_s;
+        const bool agree = std::abs(greens_s[0] - input.greens_s[0]) < kClose_s &&
+                           std::abs(greens_s[1] - input.greens_s[1]) < kClose_s;
+        if (agree) break;
+        input.greens_s = greens_s;
+        input.earlier = &timing.saturation;
+    }
+    return timing;
+}
+
+}  // namespace
+
 std::vector<PopulationTiming> time_signals(const Scenario& scenario, const TimingOptions& options) {
     std::vector<PopulationTiming> timings(scenario.populations.size());
     run_side_by_side(timings.size(), options.threads, options.on_progress,
                      [&](std::size_t population, const std::function<bool(double)>& report) {
-                         const std::vector<LaneDemand> demands = lane_demands(build_model(scenario, population));
-                         const Saturation saturation = measure_saturation(scenario, population, demands, report);
-                         timings[population] = timing_of(scenario, demands, saturation, options);
+                         timings[population] = time_population(scenario, population, options, report);
                      });
     return timings;
 }

@@ -14,8 +14,8 @@ namespace stopline {
 
 // The settings of the section `signal` that a timing sets.
 struct SignalTimes {
-    std::array<double, kTimingStages> green_s{};  // displayed greens: signal.green and signal.cross_green
-    double offset_s = 0.0;                        // signal.offset; 0 for a single intersection
+    StageGreens green_s{};  // signal.green and signal.cross_green
+    double offset_s = 0.0;  // signal.offset; 0 for a single intersection
 
     bool operator==(const SignalTimes&) const = default;
 };
@@ -69,7 +69,8 @@ std::array<double, kTimingStages> shortest_greens_s(const Scenario& scenario, co
 PopulationTiming timing_of(const Scenario& scenario, const std::vector<LaneDemand>& demands,
                            const Saturation& saturation, const TimingOptions& options);
 
-// Measures all populations at the same time in threads, and returns their timings. Results are the same to the bit for
+// Measures all populations at the same time in threads, and returns their timings. The measurement of a population is
+// repeated with the greens of its timing until both agree within a second, but at most eight times. Results are the same to the bit for
 // any number of threads. Throws Interrupted if on_progress returns false.
 std::vector<PopulationTiming> time_signals(const Scenario& scenario, const TimingOptions& options);
 

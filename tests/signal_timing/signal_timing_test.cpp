@@ -140,7 +140,7 @@ TEST(Saturation, EqualsTheClosedFormOfTheSpacingPolicy) {
     const Scenario scenario =
         timed_intersection({"network.intersection.speed_limit=30 km/h", "demand.entry_speed=30 km/h"});
     const std::vector<LaneDemand> demands = lane_demands(build_model(scenario, 0));
-    const Saturation saturation = measure_saturation(scenario, 0, demands);
+    const Saturation saturation = measure_saturation(scenario, 0, {demands});
     EXPECT_FALSE(saturation.has_violations);
     const double speed_mps = 30.0 / 3.6;
     const double gap_m = 2.95 + 0.87 * speed_mps;  // CTG-Ref
@@ -152,19 +152,43 @@ TEST(Saturation, EqualsTheClosedFormOfTheSpacingPolicy) {
     }
     // Vehicles per green x headway + lost time = green and changes.
     const double green_s = saturation.lost[0].effective_green_s(kSaturationGreen_s);
-    EXPECT_NEAR(saturation.lanes[0].vehicles_per_green * 3600.0 / saturation.lanes[0].flow_veh_h, green_s, 0.5);
+    EXPECT_NEAR(saturation.lanes[0].vehicles_per_green * 3600.0 / saturation.lanes[0].flow_veh_h, green_s, 0.05);
+}
+
+// With short greens, vehicles pass at lower speeds, and fewer of them pass at yellow.
+TEST(Saturation, DependsOnTheGreen) {
+    const Scenario scenario = timed_intersection({"populations=[CDG]", "fidelity=meso", "meso=passages"});
+    SaturationInput input{lane_demands(build_model(scenario, 0))};
+    const Saturation slow = measure_saturation(scenario, 0, input);
+    input.greens_s = {10.0, 10.0};
+    input.earlier = &slow;
+    const Saturation brief = measure_saturation(scenario, 0, input);
+    const double effective_s = brief.lost[0].effective_green_s(10.0);
+    EXPECT_NEAR(brief.lanes[0].flow_veh_h * effective_s / 3600.0, brief.lanes[0].vehicles_per_green, 0.02);
+    EXPECT_LT(brief.lost[0].end_gain_s, slow.lost[0].end_gain_s);
+    // Four vehicles in a green are no saturated queue: headways are those of the earlier measurement.
+    const Scenario sparse = timed_intersection({"fidelity=meso", "meso=passages"});
+    SaturationInput few{lane_demands(build_model(sparse, 0))};
+    const Saturation many = measure_saturation(sparse, 0, few);
+    few.greens_s = {6.0, 6.0};
+    few.earlier = &many;
+    const Saturation measured = measure_saturation(sparse, 0, few);
+    EXPECT_LT(measured.lanes[0].vehicles_per_green, 5.0);
+    EXPECT_EQ(measured.lanes[0].flow_veh_h, many.lanes[0].flow_veh_h);
+    EXPECT_NEAR(measured.lanes[0].flow_veh_h * measured.lost[0].effective_green_s(6.0) / 3600.0,
+                measured.lanes[0].vehicles_per_green, 0.02);
 }
 
 TEST(Saturation, LeftTurnsLowerTheFlowOfTheirLane) {
     const Scenario scenario = timed_intersection({"demand.left=20 %", "fidelity=meso", "meso=passages"});
-    const Saturation saturation = measure_saturation(scenario, 0, lane_demands(build_model(scenario, 0)));
+    const Saturation saturation = measure_saturation(scenario, 0, {lane_demands(build_model(scenario, 0))});
     EXPECT_TRUE(saturation.lanes[0].turns_left);
     EXPECT_FALSE(saturation.lanes[1].turns_left);
     EXPECT_LT(saturation.lanes[0].flow_veh_h, 0.9 * saturation.lanes[1].flow_veh_h);
     // With less oncoming traffic, more vehicles turn.
     const Scenario quiet =
         timed_intersection({"demand.left=20 %", "demand.inflow=100 veh/h", "fidelity=meso", "meso=passages"});
-    const Saturation freer = measure_saturation(quiet, 0, lane_demands(build_model(quiet, 0)));
+    const Saturation freer = measure_saturation(quiet, 0, {lane_demands(build_model(quiet, 0))});
     EXPECT_GT(freer.lanes[0].flow_veh_h, 1.1 * saturation.lanes[0].flow_veh_h);
 }
 
