@@ -4,9 +4,9 @@
 //     s = q exp(-q tc / 3600) / (1 - exp(-q tf / 3600))
 //
 // tc is the critical gap, tf the follow-up time. Both are measured in the same model with evenly spaced opposing
-// vehicles. Evenly spaced vehicles also tell the shortest headway t_n in which n vehicles turn. With random arrivals the
-// capacity is then q times the sum of exp(-q t_n / 3600) over all n, and the formula above is the case t_n = tc + (n - 1)
-// tf.
+// vehicles. Evenly spaced vehicles also tell the shortest headway t_n in which n vehicles turn. With random arrivals
+// the capacity is then q times the sum of exp(-q t_n / 3600) over all n. The formula above is the case
+// t_n = tc + (n - 1) tf.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -97,8 +97,8 @@ double flow_between_veh_h(double headway_s, int opposing_lane) {
     return flow_veh_h(model, kTo_s);
 }
 
-// Returns the shortest headway of evenly spaced opposing vehicles at which `vehicles` left-turning vehicles pass between
-// two of them.
+// Returns the shortest headway of evenly spaced opposing vehicles at which `vehicles` left-turning vehicles pass
+// between two of them.
 double shortest_headway_s(int vehicles, int opposing_lane) {
     double closed_s = 2.0 * vehicles;
     double open_s = 8.0 + 4.0 * vehicles;
