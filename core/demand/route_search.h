@@ -21,7 +21,7 @@ struct NetworkPath {
 // "_in_" or "_out_" in its name belongs to the leg with its name up to the last '_'.
 std::string leg_name(const std::string& lane);
 
-// The shortest ways from one approach to all legs where vehicles leave the network. Dijkstra's algorithm over approaches.
+// The shortest ways from one approach to all legs where vehicles leave the network. Uses Dijkstra's algorithm.
 class ShortestPaths {
 public:
     // Each lane on which a route begins must have an approach.

@@ -18,8 +18,8 @@ namespace stopline {
 namespace {
 
 constexpr double kBeforeStart_s = -1e9;
-// The gap that a new vehicle needs at inlets with a backlog (DemandPlan::forms_backlog()) is computed from this headway.
-// It does not depend on the headway of the arrivals, so vehicles of a backlog can enter at shorter headways.
+// The gap that a new vehicle needs at inlets with a backlog (DemandPlan::forms_backlog()) is computed from this
+// headway. It does not depend on the headway of the arrivals, so vehicles of a backlog can enter at shorter headways.
 constexpr double kBacklogHeadway_s = 2.0;
 
 // Draws spacing policy and route of the next vehicle of an inlet, unless they have been drawn already.

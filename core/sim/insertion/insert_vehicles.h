@@ -16,8 +16,8 @@ void insert_initial_queues(const Model& model, State& state);
 // Inserts the next vehicle of each inlet if the vehicle is due and has room.
 void insert_vehicles(const Model& model, State& state);
 
-// Returns the number of vehicles that are due but have found no room to enter. Counts only vehicles that have an arrival
-// time: vehicles on trips, and those of inlets with DemandPlan::forms_backlog().
+// Returns the number of vehicles that are due but have found no room to enter. Counts only vehicles that have an
+// arrival time: vehicles on trips, and those of inlets with DemandPlan::forms_backlog().
 std::int64_t insertion_backlog(const Model& model, const State& state);
 
 // Returns the departure delays of all vehicles that have arrived. A vehicle of the backlog has waited until now. Counts

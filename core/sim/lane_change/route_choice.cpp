@@ -82,8 +82,8 @@ Turn draw_turn_beyond(const Model& model, State& state, int route, bool chose_la
     return state.plan.turn_of(draw_route(model, state, inlet, k, chose_lane));
 }
 
-// Sets the turns of a vehicle on a path at the second and third intersection ahead. The exit lane of its route must have
-// an approach, so that the turns can be found from each of its lanes.
+// Sets the turns of a vehicle on a path at the second and third intersection ahead. The exit lane of its route must
+// have an approach, so that the turns can be found from each of its lanes.
 void set_planned_turns(const Model& model, State& state, int slot) {
     VehicleRecord& record = state.vehicles.record[at(slot)];
     record.following_turn = Turn::none;
