@@ -181,11 +181,14 @@ private:
                 [&](int number, std::size_t ring) { return tick - start_[ring] >= phase(number).min_green_ticks; }))
                 << "minimum of " << kMovements[group] << " at tick " << tick;
         } else if (before_[group] == Light::yellow) {
-            ASSERT_TRUE(any_phase(group,
-                                  [&](int number, std::size_t /*ring*/) {
-                                      red_ticks_[group] = phase(number).all_red_ticks;
-                                      return tick - since_[group] == phase(number).yellow_ticks;
-                                  }))
+            // If the yellow fits two phases, the shorter red applies: the check does not know which of them has ended.
+            red_ticks_[group] = std::numeric_limits<std::int64_t>::max();
+            any_phase(group, [&](int number, std::size_t /*ring*/) {
+                if (tick - since_[group] == phase(number).yellow_ticks)
+                    red_ticks_[group] = std::min(red_ticks_[group], phase(number).all_red_ticks);
+                return false;
+            });
+            ASSERT_LT(red_ticks_[group], std::numeric_limits<std::int64_t>::max())
                 << "yellow of " << kMovements[group] << " at tick " << tick;
             red_since_[group] = tick;
             // Without a red time the group can have green at once, in a phase of the other ring.
