@@ -94,6 +94,10 @@ std::string timing_text(const Scenario& scenario, const std::vector<PopulationTi
                        assumptions_text(timings, has_offset(scenario));
     for (const PopulationTiming& one : timings) {
         if (one.is_oversaturated()) text += "\n" + oversaturation_text(one);
+        if (one.greens_agree) continue;
+        text +=
+            fmt::format("\n{}: no greens of run and result agree within 1 s; the times are those of the last run.\n",
+                        one.saturation.population);
     }
     return text;
 }

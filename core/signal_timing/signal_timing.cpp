@@ -176,9 +176,9 @@ PopulationTiming time_population(const Scenario& scenario, std::size_t populatio
         timing = timing_of(scenario, input.demands, saturation, options);
         if (timing.is_oversaturated()) break;
         const StageGreens& greens_s = timing.times.green_s;
-        const bool agree = std::abs(greens_s[0] - input.greens_s[0]) < kClose_s &&
-                           std::abs(greens_s[1] - input.greens_s[1]) < kClose_s;
-        if (agree) break;
+        timing.greens_agree = std::abs(greens_s[0] - input.greens_s[0]) < kClose_s &&
+                              std::abs(greens_s[1] - input.greens_s[1]) < kClose_s;
+        if (timing.greens_agree) break;
         input.greens_s = greens_s;
         input.earlier = &timing.saturation;
     }

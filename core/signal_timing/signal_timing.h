@@ -44,7 +44,8 @@ struct PopulationTiming {
     double webster_cycle_s = 0.0;  // before rounding and minimum greens
     SignalTimes times;
     double cycle_s = 0.0;
-    double delay_s = 0.0;  // mean over all vehicles
+    double delay_s = 0.0;      // mean over all vehicles
+    bool greens_agree = true;  // false: the last measurement had other greens than the times
 
     bool is_oversaturated() const;  // no timing serves the demand; all times are NaN
     double highest_saturation() const;

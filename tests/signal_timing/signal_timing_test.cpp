@@ -192,6 +192,19 @@ TEST(Saturation, LeftTurnsLowerTheFlowOfTheirLane) {
     EXPECT_GT(freer.lanes[0].flow_veh_h, 1.1 * saturation.lanes[0].flow_veh_h);
 }
 
+// The run of the last measurement has the greens of the result, so the predicted capacity is the measured one.
+TEST(SignalTiming, CapacityIsThatOfTheGreens) {
+    const Scenario scenario = timed_intersection({"populations=[CTG-Ref, CDG]", "fidelity=meso", "meso=passages"});
+    for (const PopulationTiming& timing : time_signals(scenario, {})) {
+        EXPECT_TRUE(timing.greens_agree);
+        SaturationInput input{lane_demands(build_model(scenario, 0)), timing.times.green_s, &timing.saturation};
+        const std::size_t population = timing.saturation.population == "CDG" ? 1 : 0;
+        const Saturation again = measure_saturation(scenario, population, input);
+        const double measured_veh_h = again.lanes[0].vehicles_per_green * 3600.0 / timing.cycle_s;
+        EXPECT_NEAR(timing.lanes[0].capacity_veh_h / measured_veh_h, 1.0, 0.12) << timing.saturation.population;
+    }
+}
+
 TEST(SignalTiming, IsTheSameForAnyNumberOfThreads) {
     const Scenario scenario = timed_intersection({"populations=[CTG-Ref, CDG]", "fidelity=meso", "meso=passages"});
     TimingOptions options;
