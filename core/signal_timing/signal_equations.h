@@ -3,7 +3,7 @@
 //
 // Sources:
 //   Webster      F. V. Webster, Traffic Signal Settings, Road Research Technical Paper 39, London 1958
-//   HCM          Highway Capacity Manual 2000, chapter 16. Later editions keep these equations (6th edition: chapter 19).
+//   HCM          Highway Capacity Manual 2000, chapter 16. The 6th edition, chapter 19, keeps these equations.
 //   MUTCD        Manual on Uniform Traffic Control Devices 2009, section 4E.06
 #pragma once
 

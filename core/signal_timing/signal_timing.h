@@ -71,8 +71,8 @@ PopulationTiming timing_of(const Scenario& scenario, const std::vector<LaneDeman
                            const Saturation& saturation, const TimingOptions& options);
 
 // Measures all populations at the same time in threads, and returns their timings. The measurement of a population is
-// repeated with the greens of its timing until both agree within a second, but at most eight times. Results are the same to the bit for
-// any number of threads. Throws Interrupted if on_progress returns false.
+// repeated with the greens of its timing until both agree within a second, but at most eight times. Results are the
+// same to the bit for any number of threads. Throws Interrupted if on_progress returns false.
 std::vector<PopulationTiming> time_signals(const Scenario& scenario, const TimingOptions& options);
 
 // Returns a text that says which flow ratios are too high. The timing is oversaturated.

@@ -22,7 +22,12 @@ enum class Interval : std::uint8_t { initial_red, green, yellow, all_red };
 
 // Indices in the memory of the controller. The ticks at which the groups last lost green follow (kGreenEnds + group).
 // kMaximumFrom: tick of the first call of another phase during the present green; -1: none.
-enum : std::size_t { kInterval, kPhase, kNextPhase, kStartTick, kMaximumFrom, kGreenEnds };
+constexpr std::size_t kInterval = 0;
+constexpr std::size_t kPhase = 1;
+constexpr std::size_t kNextPhase = 2;
+constexpr std::size_t kStartTick = 3;
+constexpr std::size_t kMaximumFrom = 4;
+constexpr std::size_t kGreenEnds = 5;
 
 class ActuatedSignal {
 public:

@@ -29,24 +29,25 @@ enum class RingInterval : std::uint8_t { green, yellow, all_red, red };
 
 // Indices in the memory of the controller. The first numbers belong to the whole signal. The numbers of the two rings
 // follow, then the ticks at which the groups last lost green.
-enum : std::size_t { kHasBegun, kSide, kIsCrossing, kRingNumbers };
+constexpr std::size_t kHasBegun = 0;
+constexpr std::size_t kSide = 1;
+constexpr std::size_t kIsCrossing = 2;
+constexpr std::size_t kRingNumbers = 3;
 
 // Numbers of a ring. kCurrentPhase: -1: none. kLastPlace: place of the last phase on the present side; -1: none.
 // kClearing: groups that show yellow or red after the phase. kMaximumStart: tick of the first call that ends the phase.
 // kExtension: the last tick of a decision at which a vehicle covered a detector of the phase. kPoint: tick of the
 // force-off or yield point.
-enum : std::size_t {
-    kRingInterval,
-    kCurrentPhase,
-    kFollowingPhase,
-    kIntervalStart,
-    kLastPlace,
-    kClearing,
-    kMaximumStart,
-    kExtension,
-    kPoint,
-    kNumbersOfRing
-};
+constexpr std::size_t kRingInterval = 0;
+constexpr std::size_t kCurrentPhase = 1;
+constexpr std::size_t kFollowingPhase = 2;
+constexpr std::size_t kIntervalStart = 3;
+constexpr std::size_t kLastPlace = 4;
+constexpr std::size_t kClearing = 5;
+constexpr std::size_t kMaximumStart = 6;
+constexpr std::size_t kExtension = 7;
+constexpr std::size_t kPoint = 8;
+constexpr std::size_t kNumbersOfRing = 9;
 constexpr std::size_t kGroupEnds = kRingNumbers + kRings * kNumbersOfRing;
 
 class DualRingSignal {

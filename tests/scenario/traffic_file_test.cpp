@@ -106,8 +106,7 @@ TEST(TrafficFile, ReplacesTurnSharesAndInitialQueues) {
 TEST(TrafficFile, ChangesTheHashOfTheScenario) {
     const auto hash_with = [](const std::string& vehicles) {
         const TemporaryFolder folder;
-        std::ofstream(folder.path() / "traffic.csv")
-            << "begin,end,approach,vehicles\n0,60,west," + vehicles + "\n";
+        std::ofstream(folder.path() / "traffic.csv") << "begin,end,approach,vehicles\n0,60,west," + vehicles + "\n";
         return parse_scenario("{network: {kind: grid}, duration: 600 s, demand: {kind: counts, counts: traffic.csv}}",
                               "test.yaml", {}, folder.path())
             .hash;

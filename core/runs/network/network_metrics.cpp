@@ -402,6 +402,20 @@ MetricList<MeasuredNetwork> backlog_metrics() {
     };
 }
 
+Metric<MeasuredNetwork> breakdown_metric() {
+    return {.column = "breakdown",
+            .extent = "run",
+            .meaning =
+                "1: the run is unstable, or its mean departure delay is longer than the signal cycle; 0: neither. "
+                "The mean over seeds is the probability of a breakdown",
+            .value =
+                [](const MeasuredNetwork& run) {
+                    const bool waits_long = run.result.departure.mean_s() > run.scenario.nominal_cycle().cycle_s;
+                    return waits_long || run.result.stability == Stability::unstable ? 1 : 0;
+                },
+            .asked_for = asks_for_departure_delay};
+}
+
 }  // namespace
 
 const MetricList<MeasuredNetwork>& network_metrics() {
@@ -410,7 +424,7 @@ const MetricList<MeasuredNetwork>& network_metrics() {
          speed_advice_metrics(), street_metrics(), stop_metrics(), trip_metrics(),
          count_metrics<MeasuredNetwork>(
              {"overlaps", "conflicts", "red_entries", "forced_red_entries", "lost_vehicles"}),
-         backlog_metrics(), departure_metrics<MeasuredNetwork>()});
+         backlog_metrics(), departure_metrics<MeasuredNetwork>(), MetricList<MeasuredNetwork>{breakdown_metric()}});
     return kMetrics;
 }
 
