@@ -1,11 +1,12 @@
 // Measures the saturation flow and the lost times of an intersection by runs with saturated demand: same lanes, turn
 // shares, vehicles, driver and fidelity as the scenario, and an endless queue on each approach.
 //
-// A lane without left turns: the flow is that of the mean headway h from the fifth vehicle of a queue on, and the start-up
-// lost time is that of the first four vehicles (measure/discharge.h). The end gain e follows from the number n of vehicles
-// that pass in a green g, its yellow and all red: e = n h + start-up lost time - g. So n h is the effective green of the
-// run, and the capacity is exact for the greens of the run. With short greens, vehicles still accelerate and can stop at
-// yellow. Flow and end gain are then lower, so the measurement must be repeated with the greens of the result.
+// A lane without left turns: the flow is that of the mean headway h from the fifth vehicle of a queue on, and the
+// start-up lost time is that of the first four vehicles (measure/discharge.h). The end gain e follows from the number n
+// of vehicles that pass in a green g, its yellow and all red: e = n h + start-up lost time - g. So n h is the effective
+// green of the run, and the capacity is exact for the greens of the run. With short greens, vehicles still accelerate
+// and can stop at yellow. Flow and end gain are then lower, so the measurement must be repeated with the greens of the
+// result.
 //
 // A lane with left turns: vehicles that yield to oncoming traffic hold those behind them, so the headways of unhindered
 // queues would overestimate its flow. A second run therefore saturates only one leg of each street, and lets vehicles
@@ -59,7 +60,8 @@ struct Saturation {
 
 using StageGreens = std::array<double, kTimingStages>;  // displayed greens, s
 
-// Returns the scenario of the first run: the intersection of the scenario alone, with saturated demand and these greens.
+// Returns the scenario of the first run: the intersection of the scenario alone, with saturated demand and these
+// greens.
 Scenario saturated_scenario(const Scenario& scenario, const StageGreens& greens_s);
 
 struct SaturationInput {
