@@ -33,9 +33,10 @@ bool ends_platoon(const ArrivalProcess& process, const ArrivalKey& key, std::int
 std::vector<double> even_times(const ArrivalRate& rate, const ArrivalKey& key) {
     std::vector<double> times_s;
     const double offset = draw(key, 0, Draw::first);
-    for (double time_s = rate.time_of_s(offset); time_s < rate.end_s();
-         time_s = rate.time_of_s(static_cast<double>(times_s.size()) + offset)) {
+    double time_s = rate.time_of_s(offset);
+    while (time_s < rate.end_s()) {
         times_s.push_back(time_s);
+        time_s = rate.time_of_s(static_cast<double>(times_s.size()) + offset);
     }
     return times_s;
 }
@@ -43,9 +44,11 @@ std::vector<double> even_times(const ArrivalRate& rate, const ArrivalKey& key) {
 std::vector<double> poisson_times(const ArrivalRate& rate, const ArrivalKey& key) {
     std::vector<double> times_s;
     double expected = exponential(key, 0);
-    for (double time_s = rate.time_of_s(expected); time_s < rate.end_s(); time_s = rate.time_of_s(expected)) {
+    double time_s = rate.time_of_s(expected);
+    while (time_s < rate.end_s()) {
         times_s.push_back(time_s);
         expected += exponential(key, static_cast<std::int64_t>(times_s.size()));
+        time_s = rate.time_of_s(expected);
     }
     return times_s;
 }
@@ -55,7 +58,8 @@ std::vector<double> poisson_times(const ArrivalRate& rate, const ArrivalKey& key
 ArrivalRate gap_rate(const ArrivalProcess& process, const ArrivalRate& rate) {
     constexpr double kStep_s = 1.0;
     ArrivalRate gaps;
-    for (double from_s = 0.0; from_s < rate.end_s(); from_s = gaps.end_s()) {
+    while (gaps.end_s() < rate.end_s()) {
+        const double from_s = gaps.end_s();
         const double to_s = std::min(from_s + kStep_s, rate.end_s());
         const double mean_1ps = (rate.expected(to_s) - rate.expected(from_s)) / (to_s - from_s);
         const double gap_1ps = mean_1ps / (process.platoon_size * (1.0 - mean_1ps * process.platoon_headway_s));

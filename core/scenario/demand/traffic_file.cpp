@@ -48,8 +48,8 @@ std::string trimmed(const std::string& text) {
 // Reads the rows of a traffic file. Collects the problems of all rows.
 class TrafficReader {
 public:
-    TrafficReader(const Scenario& scenario, CsvTable csv) : csv_(std::move(csv)), graph_(graph_of(scenario)) {
-        is_matrix_ = scenario.demand.kind == "od";
+    TrafficReader(const Scenario& scenario, CsvTable csv)
+        : csv_(std::move(csv)), graph_(graph_of(scenario)), is_matrix_(scenario.demand.kind == "od") {
         entries_ = entry_legs(graph_);
         exits_ = exit_legs(graph_);
         find_columns();

@@ -222,102 +222,115 @@ void check_demand(const DemandSettings& demand, Checker& check) {
     }
 }
 
+using DemandRows = std::vector<Row<DemandSettings>>;
+
+DemandRows arrival_rows() {
+    return {
+        choice<&DemandSettings::kind>(
+            "kind", {"queue", "saturated", "rate", "counts", "od"},
+            "queue: a fixed number of `vehicles` per lane enters; saturated: a vehicle is always "
+            "waiting to enter; rate: vehicles arrive at the rate `inflow`; counts: the vehicles of a file with "
+            "detector counts arrive; od: the vehicles of an origin-destination matrix arrive and follow the "
+            "shortest routes"),
+        texts<&DemandSettings::approaches>(
+            "approaches", TextField::Rule::name, {0, 1000},
+            "approaches where vehicles enter, such as south or c1r0_south (the beginning of the names of the "
+            "lanes); an approach between two intersections is possible too; empty: all entries of the network")
+            .fallback("[]")
+            .renamed_from("arms")
+            .only_if("kind", {"queue", "saturated", "rate"}),
+        whole_number<&DemandSettings::vehicles>("vehicles", {1, 100'000}, "number of vehicles per lane")
+            .only_if("kind", {"queue"}),
+        number<&DemandSettings::inflow_1ps>("inflow", "veh/h", {1, 100'000},
+                                            "arrival rate per approach; the arrivals are spread evenly over the lanes")
+            .only_if("kind", {"rate"}),
+        choice<&DemandSettings::arrivals>(
+            "arrivals", {"even", "poisson", "platooned"},
+            "process of arrivals on each lane; even: no scatter; poisson: exponential headways; platooned: platoons "
+            "with exponential gaps between them (Cowan's model M3)")
+            .only_if("kind", {"rate", "counts", "od"}),
+        number<&DemandSettings::platoon_size>("platoon_size", "", {1, 1000},
+                                              "mean number of vehicles in a platoon; the sizes are geometric")
+            .only_if("arrivals", {"platooned"}),
+        number<&DemandSettings::platoon_headway_s>("platoon_headway", "s", {0.1, 60}, "headway within a platoon")
+            .only_if("arrivals", {"platooned"}),
+        list<&DemandSettings::profile>("profile", profile_table, {0, 10'000}, "arrival rate over time; empty: constant")
+            .fallback("[]")
+            .only_if("kind", {"rate"}),
+        choice<&DemandSettings::profile_shape>(
+            "profile_shape", {"steps", "linear"},
+            "steps: the rate is constant until the next point of the profile; linear: it changes linearly")
+            .only_if("kind", {"rate"}),
+        text<&DemandSettings::counts>(
+            "counts", TextField::Rule::title,
+            "CSV file with the columns begin, end, approach, vehicles and, optionally, left, straight, right; "
+            "relative to the folder of the scenario")
+            .required()
+            .only_if("kind", {"counts"}),
+        text<&DemandSettings::od>("od", TextField::Rule::title,
+                                  "CSV file with the columns begin, end, origin, destination, vehicles; relative to "
+                                  "the folder of the scenario")
+            .required()
+            .only_if("kind", {"od"}),
+        number<&DemandSettings::scale>("scale", "%", {0.1, 10'000}, "factor of all arrivals")
+            .only_if("kind", {"rate", "counts", "od"}),
+        number<&DemandSettings::cross_inflow_1ps>(
+            "cross_inflow", "veh/h", {0, 100'000},
+            "arrival rate per approach from south and north, while the others are saturated; "
+            "0 veh/h: all are saturated")
+            .only_if("kind", {"saturated"}),
+    };
+}
+
+DemandRows turn_rows() {
+    return {
+        number<&DemandSettings::right_share>(
+            "right", "%", {0, 100},
+            "share of right turns on each lane that allows right turns and another movement; on lanes with both "
+            "turns, left + right is at most 100 %; on lanes with both turns and no straight movement, the ratio of "
+            "left to right counts"),
+        number<&DemandSettings::left_share>(
+            "left", "%", {0, 100},
+            "share of left turns on each lane that allows left turns and another movement; same rules as for "
+            "right"),
+        choice<&DemandSettings::cross_turns>(
+            "cross_turns", {"same", "separate"},
+            "turn shares of the streets from south to north; same: the fields right and left apply to all streets; "
+            "separate: the fields cross_right and cross_left apply to these streets")
+            .value_renamed("alike", "same")
+            .value_renamed("own", "separate"),
+        number<&DemandSettings::cross_right_share>(
+            "cross_right", "%", {0, 100},
+            "share of right turns on the streets from south to north; same rules as for right")
+            .only_if("cross_turns", {"separate"}),
+        number<&DemandSettings::cross_left_share>(
+            "cross_left", "%", {0, 100},
+            "share of left turns on the streets from south to north; same rules as for right")
+            .only_if("cross_turns", {"separate"}),
+        choice<&DemandSettings::order>(
+            "order", {"balanced", "random"},
+            "order of the turns; balanced: the shares hold in every 20 vehicles of a lane; random: each turn is "
+            "drawn independently"),
+    };
+}
+
+DemandRows demand_rows() {
+    DemandRows rows = arrival_rows();
+    rows.push_back(number<&DemandSettings::entry_speed_mps>("entry_speed", "km/h", {0, 150},
+                                                            "speed at the entry, at most the speed limit"));
+    const DemandRows turns = turn_rows();
+    rows.insert(rows.end(), turns.begin(), turns.end());
+    rows.push_back(choice<&DemandSettings::start>(
+        "start", {"empty", "queued"},
+        "initial state; queued: stopped vehicles fill the approaches from the stop line to the entry"));
+    return rows;
+}
+
 }  // namespace
 
 const Table& demand_table() {
-    static const Table table = make_table<DemandSettings>(
-        "the traffic that enters the network",
-        {
-            choice<&DemandSettings::kind>(
-                "kind", {"queue", "saturated", "rate", "counts", "od"},
-                "queue: a fixed number of `vehicles` per lane enters; saturated: a vehicle is always "
-                "waiting to enter; rate: vehicles arrive at the rate `inflow`; counts: the vehicles of a file with "
-                "detector counts arrive; od: the vehicles of an origin-destination matrix arrive and follow the "
-                "shortest routes"),
-            texts<&DemandSettings::approaches>(
-                "approaches", TextField::Rule::name, {0, 1000},
-                "approaches where vehicles enter, such as south or c1r0_south (the beginning of the names of the "
-                "lanes); an approach between two intersections is possible too; empty: all entries of the network")
-                .fallback("[]")
-                .renamed_from("arms")
-                .only_if("kind", {"queue", "saturated", "rate"}),
-            whole_number<&DemandSettings::vehicles>("vehicles", {1, 100'000}, "number of vehicles per lane")
-                .only_if("kind", {"queue"}),
-            number<&DemandSettings::inflow_1ps>(
-                "inflow", "veh/h", {1, 100'000},
-                "arrival rate per approach; the arrivals are spread evenly over the lanes")
-                .only_if("kind", {"rate"}),
-            choice<&DemandSettings::arrivals>(
-                "arrivals", {"even", "poisson", "platooned"},
-                "process of arrivals on each lane; even: no scatter; poisson: exponential headways; platooned: platoons "
-                "with exponential gaps between them (Cowan's model M3)")
-                .only_if("kind", {"rate", "counts", "od"}),
-            number<&DemandSettings::platoon_size>("platoon_size", "", {1, 1000},
-                                                  "mean number of vehicles in a platoon; the sizes are geometric")
-                .only_if("arrivals", {"platooned"}),
-            number<&DemandSettings::platoon_headway_s>("platoon_headway", "s", {0.1, 60}, "headway within a platoon")
-                .only_if("arrivals", {"platooned"}),
-            list<&DemandSettings::profile>("profile", profile_table, {0, 10'000},
-                                           "arrival rate over time; empty: constant")
-                .fallback("[]")
-                .only_if("kind", {"rate"}),
-            choice<&DemandSettings::profile_shape>(
-                "profile_shape", {"steps", "linear"},
-                "steps: the rate is constant until the next point of the profile; linear: it changes linearly")
-                .only_if("kind", {"rate"}),
-            text<&DemandSettings::counts>(
-                "counts", TextField::Rule::title,
-                "CSV file with the columns begin, end, approach, vehicles and, optionally, left, straight, right; "
-                "relative to the folder of the scenario")
-                .required()
-                .only_if("kind", {"counts"}),
-            text<&DemandSettings::od>(
-                "od", TextField::Rule::title,
-                "CSV file with the columns begin, end, origin, destination, vehicles; relative to "
-                "the folder of the scenario")
-                .required()
-                .only_if("kind", {"od"}),
-            number<&DemandSettings::scale>("scale", "%", {0.1, 10'000}, "factor of all arrivals")
-                .only_if("kind", {"rate", "counts", "od"}),
-            number<&DemandSettings::cross_inflow_1ps>(
-                "cross_inflow", "veh/h", {0, 100'000},
-                "arrival rate per approach from south and north, while the others are saturated; "
-                "0 veh/h: all are saturated")
-                .only_if("kind", {"saturated"}),
-            number<&DemandSettings::entry_speed_mps>("entry_speed", "km/h", {0, 150},
-                                                     "speed at the entry, at most the speed limit"),
-            number<&DemandSettings::right_share>(
-                "right", "%", {0, 100},
-                "share of right turns on each lane that allows right turns and another movement; on lanes with both "
-                "turns, left + right is at most 100 %; on lanes with both turns and no straight movement, the ratio of "
-                "left to right counts"),
-            number<&DemandSettings::left_share>(
-                "left", "%", {0, 100},
-                "share of left turns on each lane that allows left turns and another movement; same rules as for "
-                "right"),
-            choice<&DemandSettings::cross_turns>(
-                "cross_turns", {"same", "separate"},
-                "turn shares of the streets from south to north; same: the fields right and left apply to all streets; "
-                "separate: the fields cross_right and cross_left apply to these streets")
-                .value_renamed("alike", "same")
-                .value_renamed("own", "separate"),
-            number<&DemandSettings::cross_right_share>(
-                "cross_right", "%", {0, 100},
-                "share of right turns on the streets from south to north; same rules as for right")
-                .only_if("cross_turns", {"separate"}),
-            number<&DemandSettings::cross_left_share>(
-                "cross_left", "%", {0, 100},
-                "share of left turns on the streets from south to north; same rules as for right")
-                .only_if("cross_turns", {"separate"}),
-            choice<&DemandSettings::order>(
-                "order", {"balanced", "random"},
-                "order of the turns; balanced: the shares hold in every 20 vehicles of a lane; random: each turn is "
-                "drawn independently"),
-            choice<&DemandSettings::start>(
-                "start", {"empty", "queued"},
-                "initial state; queued: stopped vehicles fill the approaches from the stop line to the entry"),
-        },
-        check_demand);
+    static const Table table =
+        make_table<DemandSettings>("the traffic that enters the network", demand_rows(), check_demand);
     return table;
 }
 
