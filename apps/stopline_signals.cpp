@@ -53,18 +53,17 @@ void declare(Options& app, SignalsCliOptions& options) {
         .type_name("TIME")
         .show_default();
     app.add_flag("--pedestrians", options.pedestrians, "Make greens long enough for pedestrians who cross a leg");
-    app.add_flag("--search", options.search, "Run a grid of greens and offsets around the start values");
+    app.add_flag("--search", options.search, "Run all combinations of some greens and offsets around the start values");
     app.add("--objective", options.objective, "With --search: minimise delay, or maximise throughput (default: delay)")
         .one_of({"delay", "throughput"});
-    app.add("--seeds", options.seeds, "With --search: runs of each setting").range(1, 1000).show_default();
-    app.add("--greens", options.greens, "With --search: values of each green, an odd number")
+    app.add("--seeds", options.seeds, "With --search: number of runs of each setting").range(1, 1000).show_default();
+    app.add("--greens", options.greens, "With --search: number of values for each green, odd")
         .range(1, 99)
         .show_default();
-    app.add("--range", options.range,
-            "With --search: largest green over the start value, and the reverse for the smallest")
+    app.add("--range", options.range, "With --search: greens from start value / NUMBER to start value x NUMBER")
         .type_name("NUMBER")
         .show_default();
-    app.add("--offsets", options.offsets, "With --search: offsets of a network of several intersections")
+    app.add("--offsets", options.offsets, "With --search: number of offsets, in networks of several intersections")
         .range(1, 100)
         .show_default();
     app.add_flag("--no-figures", options.no_figures, "Do not draw figures");

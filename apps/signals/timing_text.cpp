@@ -55,8 +55,8 @@ std::string signals_table(const std::vector<PopulationTiming>& timings, bool sho
 
 std::string assumptions_text(const std::vector<PopulationTiming>& timings, bool is_network) {
     std::vector<std::string> notes{
-        "Saturation flow and lost times are measured in runs of the intersection with saturated demand and its turn "
-        "shares, until the greens of the run and of the result agree. * marks the lane that determines the green."};
+        "Saturation flow and lost times are measured in runs with saturated demand. The runs are repeated until the "
+        "measured and the resulting greens agree. * marks the lane that determines the green."};
     const auto yields = [](const LaneSaturation& lane) { return lane.turns_left; };
     const auto has_left = [&](const PopulationTiming& one) {
         return std::any_of(one.saturation.lanes.begin(), one.saturation.lanes.end(), yields);
@@ -69,12 +69,12 @@ std::string assumptions_text(const std::vector<PopulationTiming>& timings, bool 
     if (is_network) {
         notes.emplace_back(
             "All intersections have the same greens. Each row shows the lane with the most demand in the network. The "
-            "offset lets vehicles at the speed limit meet green eastwards (in a single column, northwards). The delay "
-            "by formula is that of arrivals without platoons.");
+            "offset lets vehicles at the speed limit meet green eastwards (in a single column, northwards). The "
+            "predicted delay assumes arrivals without platoons.");
     }
     notes.emplace_back(
         "d1 is the delay of evenly spaced arrivals, d2 that of random arrivals (HCM 2000, equations 16-11 and 16-12). "
-        "Vehicles of the demand 'rate' arrive evenly spaced, so simulated delays contain little of d2.");
+        "With demand.arrivals: even, vehicles arrive evenly spaced. Simulated delays then contain little of d2.");
     return paragraphs_text(notes);
 }
 
@@ -95,9 +95,9 @@ std::string timing_text(const Scenario& scenario, const std::vector<PopulationTi
     for (const PopulationTiming& one : timings) {
         if (one.is_oversaturated()) text += "\n" + oversaturation_text(one);
         if (one.greens_agree) continue;
-        text +=
-            fmt::format("\n{}: no greens of run and result agree within 1 s; the times are those of the last run.\n",
-                        one.saturation.population);
+        text += fmt::format(
+            "\n{}: the measured and the resulting greens do not agree within 1 s; the times follow from the last run.\n",
+            one.saturation.population);
     }
     return text;
 }

@@ -10,7 +10,7 @@
 namespace stopline {
 
 // A process of arrivals.
-//   even       the vehicles follow the integral of the rate without scatter; at a constant rate, headways are equal
+//   even       vehicle k arrives when the integral of the rate reaches k plus an offset; at a constant rate, headways are equal
 //   poisson    Poisson process: the headways are exponential, independent of each other
 //   platooned  Cowan's model M3 (Cowan, 1975, "Useful headway models"): platoons of random size. The headway within a
 //              platoon is constant. Between platoons, an exponential time is added to this headway. Platoon sizes are
@@ -43,9 +43,9 @@ struct CountedArrivals {
     std::int64_t first = 0;  // number of the first vehicle at this inlet; the key of its random numbers
 };
 
-// Returns exactly `vehicles` arrival times within [from_s, to_s), ascending. They have the distribution of the process
-// under the condition of this number. poisson: the times are independent and uniform.
-// platooned: vehicles times platoon_headway_s must be below the length of the interval.
+// Returns exactly `vehicles` arrival times within [from_s, to_s), ascending. They are distributed as in the process,
+// conditional on this number. poisson: the times are independent and uniform. platooned: vehicles times
+// platoon_headway_s must be below the length of the interval.
 std::vector<double> counted_arrival_times(const ArrivalProcess& process, const CountedArrivals& counted,
                                           const ArrivalKey& key);
 

@@ -27,7 +27,7 @@ public:
     // Each lane on which a route begins must have an approach.
     ShortestPaths(const LaneGraph& graph, int from_approach);
 
-    // Returns the shortest way to a leg, or nothing if no way leads there.
+    // Returns the shortest path to a leg, or nothing if no path leads there.
     std::optional<NetworkPath> to(const std::string& leg) const;
 
 private:

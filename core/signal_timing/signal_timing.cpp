@@ -103,14 +103,16 @@ void check_timing_scenario(const Scenario& scenario, const std::string& file,
                fmt::format("value '{}' has no start values here (allowed: intersection, grid)", scenario.network.kind));
     }
     if (scenario.demand.kind != "rate") {
-        refuse("demand.kind",
-               fmt::format("value '{}' has no demand to time a signal for (allowed: rate). Try --set demand.kind=rate "
-                           "--set demand.start=empty --set 'demand.inflow=600 veh/h'",
-                           scenario.demand.kind));
+        refuse(
+            "demand.kind",
+            fmt::format("value '{}' is not supported by stopline-signals (allowed: rate). Try --set demand.kind=rate "
+                        "--set demand.start=empty --set 'demand.inflow=600 veh/h'",
+                        scenario.demand.kind));
     }
-    if (!scenario.signal.phases.empty()) refuse("signal.phases", "phases have no start values here; leave them out");
+    if (!scenario.signal.phases.empty())
+        refuse("signal.phases", "stopline-signals does not support phases: leave them out");
     if (!scenario.signal.programmes.empty()) {
-        refuse("signal.programmes", "programmes have no start values here; leave them out");
+        refuse("signal.programmes", "stopline-signals does not support programmes: leave them out");
     }
     if (scenario.signal.controller != "fixed_time") {
         refuse("signal.controller",

@@ -17,9 +17,9 @@ inline constexpr std::size_t kStopDetector = 0;
 inline constexpr std::size_t kAdvanceDetector = 1;
 inline constexpr std::array kActuationParameters{
     SignalParameter{"stop_detector", "m", 0, 50, "3 m",
-                    "distance from the stop line of the detector that a queued vehicle covers"},
+                    "distance from the stop line to the detector for queued vehicles"},
     SignalParameter{"advance_detector", "m", 0, 500, "40 m",
-                    "distance from the stop line of the detector that extends green upstream; 0 m: none"}};
+                    "distance from the stop line to the upstream detector, which extends green; 0 m: none"}};
 
 // Returns true if the detector is the one of this parameter, kStopDetector or kAdvanceDetector. The detectors of an
 // imported programme count as detectors at the stop line.

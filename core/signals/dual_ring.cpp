@@ -4,10 +4,9 @@
 //
 // - Within a side of the barriers each ring goes on by itself, in the order of the file.
 // - Both rings leave a side in the same tick, when both greens may end (simultaneous gap-out). The next side begins
-//   when both rings are cleared. A phase whose turn is over gets its next green after a barrier, too: without a call
-//   beyond the barrier, both rings begin the same side again.
+//   when both rings are cleared. A ring cannot return to an earlier phase within a side. If such a phase has a call and the other side has none, both rings begin the same side again.
 // - A lane calls the phases that protect all its movements. Without such a phase it calls those with green for all of
-//   them, else those that protect one of them, else those with green for one of them. The same lanes extend the green.
+//   them, else those that protect one of them, else those with green for one of them. The lanes that call a phase also extend its green.
 //
 // Coordination. Each ring has one coordinated phase. It holds its green up to its yield point in the background cycle.
 // Another phase gets green only if its minimum fits in before its force-off point. Its green lasts at most its green
@@ -35,9 +34,9 @@ constexpr std::size_t kIsCrossing = 2;
 constexpr std::size_t kRingNumbers = 3;
 
 // Numbers of a ring. kCurrentPhase: -1: none. kLastPlace: place of the last phase on the present side; -1: none.
-// kClearing: groups that show yellow or red after the phase. kMaximumStart: tick of the first call that ends the phase.
-// kExtension: the last tick of a decision at which a vehicle covered a detector of the phase. kPoint: tick of the
-// force-off or yield point.
+// kClearing: groups that show yellow or red after the phase. kMaximumStart: tick from which the maximum green counts;
+// -1: no call of another phase yet. kExtension: last decision tick at which a vehicle covered a detector of the phase.
+// kPoint: tick of the next force-off point, or yield point of a coordinated phase.
 constexpr std::size_t kRingInterval = 0;
 constexpr std::size_t kCurrentPhase = 1;
 constexpr std::size_t kFollowingPhase = 2;

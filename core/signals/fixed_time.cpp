@@ -49,9 +49,9 @@ std::int64_t step(SignalView& view) {
     return next_change_tick(view);
 }
 
-// Returns the first green that ends after the given tick. The programme is known as far as it reaches.
+// Returns the first green that ends after the tick. Returns an unknown window if the group gets no green.
 GreenWindow next_green(const SignalView& view, int group, std::int64_t after_tick) {
-    constexpr int kMostChanges = 100;  // a group without green has no window
+    constexpr int kMostChanges = 100;  // limits the search for groups that never get green
     const GroupProgramme& programme = view.plan().programmes[static_cast<std::size_t>(group)];
     std::int64_t tick = after_tick;
     for (int k = 0; k < kMostChanges && programme.light(tick) != Light::green; ++k) {

@@ -86,12 +86,12 @@ TEST(TrafficFile, NeedsIntervalsWithoutGapAndOverlap) {
                          "traffic.csv:2: the interval 60 to 120 s of approach 'c0r0_west' is missing after this line"));
     EXPECT_TRUE(contains(matrix_error("0,60,c0r0_west,c1r0_east,9\n60,120,c0r0_west,c1r0_east,9\n"
                                       "0,120,c0r0_west,c1r0_south,9\n"),
-                         "rows of one origin share their intervals"));
+                         "rows with the same origin must have the same intervals"));
 }
 
 TEST(TrafficFile, NeedsDestinationsThatCanBeReached) {
     EXPECT_TRUE(contains(matrix_error("0,60,c0r0_west,c1r0_north,9\n"),
-                         "traffic.csv:2:16: destination: no way leads from 'c0r0_west' to 'c1r0_north'"));
+                         "traffic.csv:2:16: destination: no path leads from 'c0r0_west' to 'c1r0_north'"));
     EXPECT_TRUE(contains(matrix_error("0,60,c0r0_west,c1r0_est,9\n"),
                          "destination: vehicles do not leave the network at 'c1r0_est'; did you mean 'c1r0_east'?"));
 }

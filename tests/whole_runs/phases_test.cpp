@@ -67,7 +67,7 @@ LeftTurns left_turns_of(const Scenario& scenario, double end_s) {
     return result;
 }
 
-// Both scenarios have cycles of 72 s and 80 s, so that the left turns have similar times.
+// The cycles are 96 s with protected left turns and 80 s with permissive ones.
 TEST(SignalPhases, ProtectedLeftTurnsPassWithoutYieldingAndPermissiveOnesYield) {
     const LeftTurns with_protection = left_turns_of(with_phases(protected_lefts()), 600.0);
     EXPECT_EQ(with_protection.waits_for_priority, 0);

@@ -139,9 +139,10 @@ MetricList<Run> departure_metrics() {
         {.column = "departure_delay_mean_s",
          .unit = "s",
          .extent = "run",
-         .meaning = "mean time from the arrival of a vehicle to its entry; vehicles that still wait at the end count "
-                    "with the time since their arrival; empty: no vehicle has an arrival time, as with saturated "
-                    "inlets and queues. Written with `measure.departure_delay: on`, as the next columns",
+         .meaning =
+             "mean time from the arrival of a vehicle to its entry; vehicles that still wait at the end count "
+             "with the time since their arrival; empty: no vehicle has an arrival time, as with saturated "
+             "inlets and queues. This column and the next ones are written only with `measure.departure_delay: on`",
          .value = [](const Run& run) { return run.counts().delays.mean_s(); },
          .summary_decimals = 3,
          .console = {.heading = "departure\ndelay",

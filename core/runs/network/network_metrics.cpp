@@ -339,7 +339,7 @@ MetricList<MeasuredNetwork> stop_metrics() {
          .sweep_decimals = 1},
         {.column = "stops_per_vehicle",
          .extent = "run",
-         .meaning = "number of stops, counted once a second in the whole network, divided by `entered`",
+         .meaning = "number of stops in the whole network, counted once a second, per vehicle that entered",
          .value =
              [](const MeasuredNetwork& run) {
                  return run.result.entered == 0
@@ -406,8 +406,8 @@ Metric<MeasuredNetwork> breakdown_metric() {
     return {.column = "breakdown",
             .extent = "run",
             .meaning =
-                "1: the run is unstable, or its mean departure delay is longer than the signal cycle; 0: neither. "
-                "The mean over seeds is the probability of a breakdown",
+                "1: the run is unstable, or its mean departure delay exceeds the nominal signal cycle; 0: neither. "
+                "The mean over seeds estimates the probability of a breakdown",
             .value =
                 [](const MeasuredNetwork& run) {
                     const bool waits_long = run.result.departure.mean_s() > run.scenario.nominal_cycle().cycle_s;

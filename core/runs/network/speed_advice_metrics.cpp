@@ -10,7 +10,7 @@ MetricList<MeasuredNetwork> speed_advice_metrics() {
              .unit = "veh h",
              .extent = "run",
              .meaning =
-                 "time for which vehicles slow down by the advice of signals (`driver.speed_advice`), without their "
+                 "time for which vehicles follow the speed advice of signals (`driver.speed_advice`), without their "
                  "followers",
              .value = [](const MeasuredNetwork& run) { return run.result.delays.advised_s / kSecondsPerHour; },
              .summary_decimals = 3,

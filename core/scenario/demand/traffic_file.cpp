@@ -205,7 +205,7 @@ private:
             paths = paths_from_.try_emplace(row.origin, graph_, approach).first;
         }
         if (paths->second.to(row.destination)) return;
-        add_problem(k, "destination", fmt::format("no way leads from '{}' to '{}'", row.origin, row.destination));
+        add_problem(k, "destination", fmt::format("no path leads from '{}' to '{}'", row.origin, row.destination));
     }
 
     // Checks the intervals of each approach, or of each pair of origin and destination: they must follow each other
@@ -256,7 +256,7 @@ private:
             if (rows[other].to_s == rows[k].to_s) continue;
             add_problem(lines_[k], "",
                         fmt::format("the interval {:g} to {:g} s of origin '{}' overlaps the interval "
-                                    "{:g} to {:g} s of line {}: rows of one origin share their intervals",
+                                    "{:g} to {:g} s of line {}: rows with the same origin must have the same intervals",
                                     rows[k].from_s, rows[k].to_s, rows[k].origin, rows[other].from_s, rows[other].to_s,
                                     lines_[other]));
         }

@@ -72,7 +72,7 @@ void check_streets(const Scenario& scenario, Checker& check) {
     }
     if (scenario.demand.kind == "rate" && !plans_arrivals(scenario)) {
         check.error("demand.kind",
-                    "value 'rate' needs demand.arrivals: poisson or platooned, or a demand.profile, in streets");
+                    "in streets, value 'rate' needs a demand.profile, or demand.arrivals: poisson or platooned");
     }
     refuse_green_counts(scenario, check);
     check_pockets(scenario, check);

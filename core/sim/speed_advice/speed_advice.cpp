@@ -17,8 +17,8 @@ namespace stopline {
 
 namespace {
 
-// Advises the first vehicle of a lane that would arrive before it can pass the stop line. All vehicles ahead of it are
-// known: those that have stopped by then leave before it, at the headway of their policy.
+// Advises the first vehicle of a lane that would arrive before it can pass the stop line. The vehicles ahead that stop
+// before the green form a queue, which discharges first. It discharges at the desired gaps of their policies.
 class LaneAdvice {
 public:
     LaneAdvice(const Model& model, State& state, Partition& part, int lane)
@@ -109,8 +109,8 @@ private:
         return margin_m + braking.reaction_s * speed_mps + 0.5 * square(speed_mps) / b;
     }
 
-    // Sets the speed with which the vehicle passes the stop line as soon as it can. A vehicle brakes near the stop line
-    // as long as the light is red, and for its reaction time afterwards. So it must not come that near before.
+    // Sets a target speed with which the vehicle reaches the braking distance of the stop line when it may pass. If it
+    // came nearer before, it would brake for the red light.
     void slow_down(int slot, double to_line_m, double passage_s, const SpeedAdviceSettings& advice) {
         constexpr int kIterations = 4;
         const double speed_mps = state_.vehicles.speed_mps[at(slot)];
@@ -132,8 +132,8 @@ private:
     const int lane_;
     double line_m_;
     double limit_mps_;
-    double start_s_ = 0.0;              // time until vehicles react to the green of the present vehicle; 0: they do
-    double queue_s_ = 0.0;              // time that the waiting vehicles need from there on
+    double start_s_ = 0.0;              // time until drivers react to the start of the green found; 0: they react
+    double queue_s_ = 0.0;              // time from start_s_ on that the queue ahead needs to discharge
     std::int64_t used_until_tick_ = 0;  // greens that end before this tick are too early for the remaining vehicles
 };
 

@@ -13,7 +13,7 @@
 
 namespace stopline {
 
-// The departure delays of vehicles that have entered: times from arrival to entry.
+// Departure delays: times from arrival to entry. Vehicles of the backlog count with the time since their arrival.
 struct DepartureDelays {
     std::int64_t vehicles = 0;
     double sum_s = 0.0;

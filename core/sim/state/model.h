@@ -78,11 +78,12 @@ struct Model {
     double step_s = 0.01;
     std::uint64_t seed = 1;
     LaneGraph graph;
-    std::vector<std::vector<int>> connections_to;      // [lane] connections that lead to the lane
-    SignalPlans signals;                               // one for each intersection
-    std::vector<PhasePriority> phase_priorities;       // right of way that changes with the phases of a signal
-    std::vector<PriorityByPhase> priorities_by_phase;  // the same for signals with phases, in the order of the signals
-    std::vector<PowertrainTables> vehicles;            // the vehicle types of the population
+    std::vector<std::vector<int>> connections_to;  // [lane] connections that lead to the lane
+    SignalPlans signals;                           // one for each intersection
+    std::vector<PhasePriority> phase_priorities;   // right of way that changes at fixed times
+    std::vector<PriorityByPhase>
+        priorities_by_phase;                 // right of way of signals with phases, in the order of the signals
+    std::vector<PowertrainTables> vehicles;  // the vehicle types of the population
     // The drivers of the population. A driver of several vehicle types has a plan for each type.
     std::vector<DriverPlan> drivers;
     // [policy] Each component of the population has a policy of its own. If the vehicle types of SUMO's files apply,
