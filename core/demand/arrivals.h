@@ -10,7 +10,8 @@
 namespace stopline {
 
 // A process of arrivals.
-//   even       vehicle k arrives when the integral of the rate reaches k plus an offset; at a constant rate, headways are equal
+//   even       vehicle k arrives when the integral of the rate reaches k plus an offset; at a constant rate, headways
+//              are equal
 //   poisson    Poisson process: the headways are exponential, independent of each other
 //   platooned  Cowan's model M3 (Cowan, 1975, "Useful headway models"): platoons of random size. The headway within a
 //              platoon is constant. Between platoons, an exponential time is added to this headway. Platoon sizes are

@@ -4,9 +4,11 @@
 //
 // - Within a side of the barriers each ring goes on by itself, in the order of the file.
 // - Both rings leave a side in the same tick, when both greens may end (simultaneous gap-out). The next side begins
-//   when both rings are cleared. A ring cannot return to an earlier phase within a side. If such a phase has a call and the other side has none, both rings begin the same side again.
+//   when both rings are cleared. A ring cannot return to an earlier phase within a side. If such a phase has a call and
+//   the other side has none, both rings begin the same side again.
 // - A lane calls the phases that protect all its movements. Without such a phase it calls those with green for all of
-//   them, else those that protect one of them, else those with green for one of them. The lanes that call a phase also extend its green.
+//   them, else those that protect one of them, else those with green for one of them. The lanes that call a phase also
+//   extend its green.
 //
 // Coordination. Each ring has one coordinated phase. It holds its green up to its yield point in the background cycle.
 // Another phase gets green only if its minimum fits in before its force-off point. Its green lasts at most its green
