@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -53,7 +54,7 @@ std::string signals_table(const std::vector<PopulationTiming>& timings, bool sho
     return table.text();
 }
 
-std::string assumptions_text(const std::vector<PopulationTiming>& timings, bool is_network) {
+std::string assumptions_text(const std::vector<PopulationTiming>& timings, const Scenario& scenario, bool is_network) {
     std::vector<std::string> notes{
         "Saturation flow and lost times are measured in runs with saturated demand. The runs are repeated until the "
         "measured and the resulting greens agree. * marks the lane that determines the green."};
@@ -72,9 +73,15 @@ std::string assumptions_text(const std::vector<PopulationTiming>& timings, bool 
             "offset lets vehicles at the speed limit meet green eastwards (in a single column, northwards). The "
             "predicted delay assumes arrivals without platoons.");
     }
-    notes.emplace_back(
-        "d1 is the delay of evenly spaced arrivals, d2 that of random arrivals (HCM 2000, equations 16-11 and 16-12). "
-        "With demand.arrivals: even, vehicles arrive evenly spaced. Simulated delays then contain little of d2.");
+    if (!scenario.demand.profile.empty()) {
+        notes.emplace_back("The demand is that of the highest factor in demand.profile.");
+    }
+    std::string delays =
+        "d1 is the delay of evenly spaced arrivals, d2 that of random arrivals (HCM 2000, equations 16-11 and 16-12).";
+    if (scenario.demand.arrivals == "even") {
+        delays += " With demand.arrivals: even, vehicles arrive evenly spaced. Simulated delays then contain little of d2.";
+    }
+    notes.push_back(std::move(delays));
     return paragraphs_text(notes);
 }
 
@@ -91,7 +98,7 @@ std::string interval_cell(const MeanInterval& value, int decimals, bool with_sig
 
 std::string timing_text(const Scenario& scenario, const std::vector<PopulationTiming>& timings) {
     std::string text = lanes_table(timings) + "\n" + signals_table(timings, has_offset(scenario)) + "\n" +
-                       assumptions_text(timings, has_offset(scenario));
+                       assumptions_text(timings, scenario, has_offset(scenario));
     for (const PopulationTiming& one : timings) {
         if (one.is_oversaturated()) text += "\n" + oversaturation_text(one);
         if (one.greens_agree) continue;

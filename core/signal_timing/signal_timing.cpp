@@ -164,13 +164,23 @@ PopulationTiming timing_of(const Scenario& scenario, const std::vector<LaneDeman
 
 namespace {
 
+// Returns the demand of all lanes. A profile of the inflow counts with its highest factor.
+std::vector<LaneDemand> peak_demands(const Scenario& scenario, std::size_t population) {
+    std::vector<LaneDemand> demands = lane_demands(build_model(scenario, population));
+    if (scenario.demand.profile.empty()) return demands;
+    double peak = 0.0;
+    for (const ProfilePoint& point : scenario.demand.profile) peak = std::max(peak, point.inflow);
+    for (LaneDemand& one : demands) one.flow_veh_h *= peak;
+    return demands;
+}
+
 // Measures a population with the greens of its timing, until both agree.
 PopulationTiming time_population(const Scenario& scenario, std::size_t population, const TimingOptions& options,
                                  const std::function<bool(double)>& report) {
     constexpr int kRounds = 8;         // the greens of some populations alternate between two values
     constexpr double kClose_s = 1.01;  // greens are whole seconds
     SaturationInput input;
-    input.demands = lane_demands(build_model(scenario, population));
+    input.demands = peak_demands(scenario, population);
     PopulationTiming timing;
     for (int round = 0; round < kRounds; ++round) {
         const auto report_round = [&](double share) { return report((round + share) / kRounds); };

@@ -69,10 +69,12 @@ double number_in(const CsvTable& table, const std::vector<std::string>& row, con
 std::vector<RunMetric> timing_metrics(const Scenario& scenario, std::size_t population,
                                       const std::function<bool()>& keep_going) {
     constexpr std::int64_t kTicksPerReport = 1000;
-    const Model model = build_model(scenario, population);
+    Scenario timed = scenario;
+    if (timed.duration_s == 0.0) timed.duration_s = kSearchDuration_s;
+    const double duration_s = timed.duration_s;
+    const Model model = build_model(timed, population);
     Simulation simulation(model);
     const State& state = simulation.state();
-    const double duration_s = scenario.duration_s > 0.0 ? scenario.duration_s : kSearchDuration_s;
     const std::int64_t end = to_ticks(duration_s, model.step_s);
     const std::int64_t begin = to_ticks(kWarmUpShare * duration_s, model.step_s);
     const std::int64_t sample_ticks = std::max<std::int64_t>(to_ticks(kDelaySample_s, model.step_s), 1);

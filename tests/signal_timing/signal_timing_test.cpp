@@ -192,6 +192,13 @@ TEST(Saturation, LeftTurnsLowerTheFlowOfTheirLane) {
     EXPECT_GT(freer.lanes[0].flow_veh_h, 1.1 * saturation.lanes[0].flow_veh_h);
 }
 
+TEST(SignalTiming, CountsAProfileWithItsHighestFactor) {
+    const Scenario scenario = timed_intersection(
+        {"fidelity=meso", "meso=passages", "demand.profile=[{from: 0 s, inflow: 50 %}, {from: 300 s, inflow: 80 %}]"});
+    const PopulationTiming timing = time_signals(scenario, {}).front();
+    EXPECT_NEAR(timing.lanes[0].demand.flow_veh_h, 0.8 * 450.0, 1e-9);
+}
+
 // The run of the last measurement has the greens of the result, so the predicted capacity is the measured one.
 TEST(SignalTiming, CapacityIsThatOfTheGreens) {
     const Scenario scenario = timed_intersection({"populations=[CTG-Ref, CDG]", "fidelity=meso", "meso=passages"});

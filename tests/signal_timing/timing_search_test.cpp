@@ -98,6 +98,17 @@ TEST(TimingSearch, MeasuredDelayIsTheUniformDelay) {
     EXPECT_EQ(metric(metrics, "overlaps"), 0.0);
 }
 
+// Random arrivals add delay. They go on until the end of a run without duration, too.
+TEST(TimingSearch, RandomArrivalsAddDelay) {
+    const std::vector<std::string> overrides{"fidelity=meso", "meso=passages", "signal.green=19 s"};
+    std::vector<std::string> random = overrides;
+    random.emplace_back("demand.arrivals=poisson");
+    const std::vector<RunMetric> even = timing_metrics(timed_intersection(overrides), 0, {});
+    const std::vector<RunMetric> poisson = timing_metrics(timed_intersection(random), 0, {});
+    EXPECT_NEAR(metric(poisson, "throughput_veh_h"), 3600.0, 200.0);
+    EXPECT_GT(metric(poisson, "delay_s"), metric(even, "delay_s") + 0.5);
+}
+
 TEST(TimingSearch, CountsVehiclesThatWaitToEnter) {
     const std::vector<std::string> overrides{"fidelity=meso", "meso=passages", "duration=600 s"};
     std::vector<std::string> heavy = overrides;
