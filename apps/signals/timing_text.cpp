@@ -79,7 +79,8 @@ std::string assumptions_text(const std::vector<PopulationTiming>& timings, const
     std::string delays =
         "d1 is the delay of evenly spaced arrivals, d2 that of random arrivals (HCM 2000, equations 16-11 and 16-12).";
     if (scenario.demand.arrivals == "even") {
-        delays += " With demand.arrivals: even, vehicles arrive evenly spaced. Simulated delays then contain little of d2.";
+        delays +=
+            " With demand.arrivals: even, vehicles arrive evenly spaced. Simulated delays then contain little of d2.";
     }
     notes.push_back(std::move(delays));
     return paragraphs_text(notes);

@@ -76,70 +76,76 @@ const Table& vehicle_table() {
     static const Table table = make_table<Powertrain>(
         "a vehicle and its powertrain",
         {
-            text<&Powertrain::name>("name", TextField::Rule::name, "name of the vehicle; default: the name of the file"),
+            text<&Powertrain::name>("name", TextField::Rule::name,
+                                    "name of the vehicle; default: the name of the file"),
             number<&Powertrain::length_m>("length", "m", {0.5, 30}, "length from bumper to bumper").required(),
             number<&Powertrain::mass_kg>("mass", "kg", {50, 60'000}, "kerb mass").required(),
             number<&Powertrain::load_kg>("load", "kg", {0, 40'000}, "mass of driver and luggage").required(),
             number<&Powertrain::drag_coefficient>("drag_coefficient", "", {0, 3}, "air drag coefficient").required(),
             number<&Powertrain::frontal_area_m2>("frontal_area", "m2", {0.1, 20}, "frontal area").required(),
-            number<&Powertrain::rolling_r0>("rolling_resistance", "", {0, 0.1}, "rolling resistance coefficient at rest")
+            number<&Powertrain::rolling_r0>("rolling_resistance", "", {0, 0.1},
+                                            "rolling resistance coefficient at rest")
                 .required(),
             number<&Powertrain::rolling_r1_s_per_m>("rolling_resistance_growth", "s/m", {0, 0.01},
-                                           "growth of rolling_resistance per m/s")
+                                                    "growth of rolling_resistance per m/s")
                 .required(),
             number<&Powertrain::maximum_speed_mps>("maximum_speed", "km/h", {5, 500},
-                                          "speed that the speed limiter of the vehicle permits"),
-            number<&Powertrain::wheel_diameter_m>("wheel_diameter", "m", {0.1, 3}, "rolling diameter of the wheels").required(),
+                                                   "speed that the speed limiter of the vehicle permits"),
+            number<&Powertrain::wheel_diameter_m>("wheel_diameter", "m", {0.1, 3}, "rolling diameter of the wheels")
+                .required(),
             curve<&Powertrain::full_load>("full_load", {"rpm", {0, 30'000}}, {"N m", {0, 5000}}, {2, 200},
-                                 "maximum torque over engine speed")
+                                          "maximum torque over engine speed")
                 .required(),
             curve<&Powertrain::drag_torque>(
                 "drag_torque", {"rpm", {0, 30'000}}, {"N m", {-5000, 0}}, {2, 200},
                 "drag torque of the engine without fuel, over engine speed; electric motor: limit of recuperation")
                 .required(),
-            number<&Powertrain::idle_rpm>("idle_speed", "rpm", {0, 5000}, "idle speed of the engine; electric motor: 0 rpm")
+            number<&Powertrain::idle_rpm>("idle_speed", "rpm", {0, 5000},
+                                          "idle speed of the engine; electric motor: 0 rpm")
                 .required(),
             number<&Powertrain::limiter_rpm>("limiter_speed", "rpm", {100, 30'000},
-                                    "engine speed above which there is no torque")
+                                             "engine speed above which there is no torque")
                 .required(),
             numbers<&Powertrain::gear_ratio>("gear_ratios", "", {0.1, 30}, {1, PowertrainTables::kMaxGears},
-                                    "engine speed / propeller shaft speed, one value per gear")
+                                             "engine speed / propeller shaft speed, one value per gear")
                 .required(),
-            numbers<&Powertrain::rotating_mass_factor>("rotating_mass_factors", "", {1, 5}, {1, PowertrainTables::kMaxGears},
-                                              "effective mass with rotating parts / real mass, one value per gear")
+            numbers<&Powertrain::rotating_mass_factor>(
+                "rotating_mass_factors", "", {1, 5}, {1, PowertrainTables::kMaxGears},
+                "effective mass with rotating parts / real mass, one value per gear")
                 .required(),
             number<&Powertrain::final_drive>("final_drive", "", {0.1, 30}, "ratio of the final drive").required(),
             number<&Powertrain::driveline_efficiency>("driveline_efficiency", "%", {10, 100},
-                                             "efficiency from the engine to the wheels")
+                                                      "efficiency from the engine to the wheels")
                 .required(),
             number<&Powertrain::launch_rpm>("launch_speed", "rpm", {0, 10'000},
-                                   "engine speed while the clutch slips at a start; 0 rpm: no clutch")
+                                            "engine speed while the clutch slips at a start; 0 rpm: no clutch")
                 .required(),
             number<&Powertrain::shift_up_part_load_rpm>("shift_up_part_load", "rpm", {1, 30'000},
-                                               "upshift speed of the engine at low torque"),
+                                                        "upshift speed of the engine at low torque"),
             number<&Powertrain::shift_up_full_load_rpm>(
                 "shift_up_full_load", "rpm", {1, 30'000},
                 "upshift speed of the engine at full load; linear interpolation between low torque and full load"),
             number<&Powertrain::shift_down_rpm>("shift_down", "rpm", {1, 30'000}, "downshift speed of the engine"),
             number<&Powertrain::torque_interruption_s>("torque_interruption", "s", {0, 5},
-                                              "time without drive torque during a gear change"),
+                                                       "time without drive torque during a gear change"),
             number<&Powertrain::minimum_gear_time_s>("minimum_gear_time", "s", {0, 60},
-                                            "shortest time between two gear changes"),
-            numbers<&Powertrain::lag_rpm>("lag_speeds", "rpm", {0, 30'000}, {1, 100}, "engine speeds of the lag map", true)
+                                                     "shortest time between two gear changes"),
+            numbers<&Powertrain::lag_rpm>("lag_speeds", "rpm", {0, 30'000}, {1, 100}, "engine speeds of the lag map",
+                                          true)
                 .required(),
             numbers<&Powertrain::lag_torque_share>("lag_torque_shares", "%", {0, 100}, {1, 100},
-                                          "torques of the lag map, as shares of the full-load torque", true)
+                                                   "torques of the lag map, as shares of the full-load torque", true)
                 .required(),
             numbers<&Powertrain::lag_drive_s>(
                 "lag_times", "s", {0.001, 10}, {1, 10'000},
                 "lag of the drive torque: for each of lag_speeds, the values at all lag_torque_shares")
                 .required(),
             numbers<&Powertrain::lag_gear_factor>("lag_gear_factors", "", {0.01, 10}, {1, PowertrainTables::kMaxGears},
-                                         "factor on the lag, one value per gear")
+                                                  "factor on the lag, one value per gear")
                 .required(),
             number<&Powertrain::brake_lag_s>("brake_lag", "s", {0.001, 5}, "lag of the brake torque").required(),
             number<&Powertrain::brake_friction>("brake_friction", "", {0.05, 2},
-                                       "tyre-road friction coefficient, limits braking and traction")
+                                                "tyre-road friction coefficient, limits braking and traction")
                 .required(),
         },
         check_vehicle);
