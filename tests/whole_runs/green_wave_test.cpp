@@ -1,5 +1,5 @@
-// Green waves: a platoon that fits into the green passes all further signals of a street without a stop if the offset of
-// the signals is its travel time from one signal to the next.
+// Green waves: a platoon that fits into the green passes all further signals of a street without a stop if the offset
+// of the signals is its travel time from one signal to the next.
 #include <gtest/gtest.h>
 
 #include <algorithm>
