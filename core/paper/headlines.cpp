@@ -89,10 +89,12 @@ std::vector<Headline> headlines(const Scorecard& scorecard) {
 }
 
 std::string results_text(const Scorecard& scorecard) {
-    const int others = scorecard.count(Verdict::input) + scorecard.count(Verdict::own);
-    return fmt::format("Of {} rows with results {} are inside their tolerance, {} outside, and {} open.",
+    const int own = scorecard.count(Verdict::own);
+    const int others = scorecard.count(Verdict::input) + own;
+    const std::string further = own > 0 ? fmt::format(" {} further rows hold results of our own.", own) : "";
+    return fmt::format("Of {} rows with results {} are inside their tolerance, {} outside, and {} open.{}",
                        static_cast<int>(scorecard.rows.size()) - others, scorecard.count(Verdict::inside),
-                       scorecard.count(Verdict::miss), scorecard.count(Verdict::open));
+                       scorecard.count(Verdict::miss), scorecard.count(Verdict::open), further);
 }
 
 }  // namespace stopline

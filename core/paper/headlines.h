@@ -18,8 +18,8 @@ struct Headline {
 // Returns the five lines with our values from the scorecard. If a value was not measured, its line says so.
 std::vector<Headline> headlines(const Scorecard& scorecard);
 
-// Returns a sentence with the number of rows inside, outside and open. Inputs of the paper and own rows are not
-// counted.
+// Returns a sentence with the number of rows inside, outside and open. Inputs of the paper are not counted. Own
+// rows are counted in a sentence of their own.
 std::string results_text(const Scorecard& scorecard);
 
 }  // namespace stopline

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "base/io/csv.h"
+#include "paper/headlines.h"
 #include "runs/interrupted.h"
 #include "scenario/scenario_text.h"
 
@@ -117,6 +118,8 @@ TEST(Coordination, RowsAreNoResultsOfThePaper) {
     EXPECT_EQ(scorecard.rows.size(), load_own_rows().size());
     EXPECT_EQ(scorecard.count(Verdict::own), static_cast<int>(scorecard.rows.size()));
     EXPECT_EQ(scorecard.count(Verdict::open), 0);
+    EXPECT_TRUE(contains(results_text(scorecard), "0 rows with results")) << results_text(scorecard);
+    EXPECT_TRUE(contains(results_text(scorecard), "15 further rows hold results of our own."));
     for (const ScoredRow& row : scorecard.rows) {
         EXPECT_FALSE(row.measured_as.empty()) << row.target.id << " is missing in explanations.csv";
         EXPECT_TRUE(std::any_of(row_judges().begin(), row_judges().end(), [&](const RowJudge& judge) {
