@@ -109,6 +109,11 @@ void check_timing_scenario(const Scenario& scenario, const std::string& file,
                         "--set demand.start=empty --set 'demand.inflow=600 veh/h'",
                         scenario.demand.kind));
     }
+    const auto has_inflow = [](const ProfilePoint& point) { return point.inflow > 0.0; };
+    const std::vector<ProfilePoint>& profile = scenario.demand.profile;
+    if (!profile.empty() && std::none_of(profile.begin(), profile.end(), has_inflow)) {
+        refuse("demand.profile", "all factors are 0 %, so there is no demand to time a signal for");
+    }
     if (!scenario.signal.phases.empty())
         refuse("signal.phases", "stopline-signals does not support phases: leave them out");
     if (!scenario.signal.programmes.empty()) {

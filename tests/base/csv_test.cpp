@@ -33,6 +33,14 @@ TEST(Csv, ReadsLineEndsOfAllKinds) {
     EXPECT_EQ(table.rows, (std::vector<std::vector<std::string>>{{"1", "2"}, {"3", "4"}}));
 }
 
+TEST(Csv, SkipsTheByteOrderMarkOfSpreadsheets) {
+    EXPECT_EQ(parse_csv("\xEF\xBB\xBF"
+                        "a,b\n1,2\n",
+                        "t.csv")
+                  .columns,
+              (std::vector<std::string>{"a", "b"}));
+}
+
 TEST(Csv, RefusesMalformedTables) {
     const auto error = [](const char* text) { return input_error_of([&] { parse_csv(text, "t.csv"); }); };
     EXPECT_TRUE(contains(error(""), "t.csv: the file is empty"));

@@ -132,6 +132,9 @@ TEST(ActuatedSignals, AreChecked) {
     EXPECT_TRUE(
         contains(error_of_signal(actuated + four_phases() + "  - {green: 10 s, recall: minimum, min_green: 12 s}\n"),
                  "field 'signal.phases[4].min_green': 12 s is longer than the maximum green, 10 s"));
+    EXPECT_TRUE(
+        contains(error_of_signal(actuated + four_phases() + "  - {green: 10 s, recall: minimum, max_green: 2 s}\n"),
+                 "field 'signal.phases[4].max_green': 2 s is shorter than the minimum green, 5 s (min_green)"));
     EXPECT_TRUE(contains(error_of_signal(four_phases() + "  advance_detector: 50 m\n"),
                          "field 'signal.advance_detector' applies only if controller is "));
 }

@@ -89,6 +89,12 @@ TEST(TrafficFile, NeedsIntervalsWithoutGapAndOverlap) {
                          "rows with the same origin must have the same intervals"));
 }
 
+TEST(TrafficFile, NeedsVehiclesWithinTheRun) {
+    EXPECT_TRUE(contains(counts_error("25200,26100,c0r0_west,9,0,6,3\n"),
+                         "traffic.csv:2:1: begin: value 25200: all rows begin at or after the end of the run, 600 s"));
+    EXPECT_EQ(counts_error("0,600,c0r0_west,9,0,6,3\n600,1200,c0r0_west,9,0,6,3\n"), "");
+}
+
 TEST(TrafficFile, NeedsDestinationsThatCanBeReached) {
     EXPECT_TRUE(contains(matrix_error("0,60,c0r0_west,c1r0_north,9\n"),
                          "traffic.csv:2:16: destination: no path leads from 'c0r0_west' to 'c1r0_north'"));

@@ -96,6 +96,8 @@ std::size_t CsvTable::column(std::string_view name) const {
 CsvTable parse_csv(std::string_view text, const std::string& label) {
     CsvTable table;
     table.label = label;
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // spreadsheets write it at the start of UTF-8 files
+    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
     CsvReader reader(text, label);
     if (reader.at_end()) throw InputError(fmt::format("{}: the file is empty", label));
     table.columns = reader.read_record();

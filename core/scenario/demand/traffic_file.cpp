@@ -49,7 +49,10 @@ std::string trimmed(const std::string& text) {
 class TrafficReader {
 public:
     TrafficReader(const Scenario& scenario, CsvTable csv)
-        : csv_(std::move(csv)), graph_(graph_of(scenario)), is_matrix_(scenario.demand.kind == "od") {
+        : csv_(std::move(csv)),
+          graph_(graph_of(scenario)),
+          is_matrix_(scenario.demand.kind == "od"),
+          duration_s_(scenario.duration_s) {
         entries_ = entry_legs(graph_);
         exits_ = exit_legs(graph_);
         find_columns();
@@ -69,6 +72,7 @@ public:
         }
         if (csv_.rows.empty()) add_problem(1, "", "the file has no row below its header");
         if (problems_.empty()) check_intervals(rows);
+        if (problems_.empty()) check_duration(rows);
         std::stable_sort(rows.begin(), rows.end(),
                          [](const TrafficRow& a, const TrafficRow& b) { return a.from_s < b.from_s; });
         return rows;
@@ -81,6 +85,15 @@ private:
         LaneGraph graph = network_kind(scenario.network).graph(scenario.network);
         if (scenario.demand.kind == "od") add_approaches(graph);
         return graph;
+    }
+
+    // A run without a vehicle of the file is a mistake, such as times of day instead of times of the run.
+    void check_duration(const std::vector<TrafficRow>& rows) {
+        const auto is_late = [&](const TrafficRow& row) { return row.from_s >= duration_s_; };
+        if (duration_s_ <= 0.0 || !std::all_of(rows.begin(), rows.end(), is_late)) return;
+        add_problem(std::size_t{0}, "begin",
+                    fmt::format("value {}: all rows begin at or after the end of the run, {:g} s",
+                                csv_.rows.front()[csv_.column("begin")], duration_s_));
     }
 
     void add_problem(int line, const std::string& place, const std::string& text) {
@@ -270,6 +283,7 @@ private:
     CsvTable csv_;
     LaneGraph graph_;
     bool is_matrix_ = false;
+    double duration_s_ = 0.0;
     bool has_turns_ = false;
     std::vector<std::string> entries_;
     std::vector<std::string> exits_;

@@ -116,9 +116,14 @@ const Table& phase_table() {
                                     "the cycle"),
         },
         [](const S& s, Checker& check) {
-            if (s.min_green_s <= s.longest_green_s() || !check.given("min_green")) return;
-            check.error("min_green",
-                        seconds(s.min_green_s) + " is longer than the maximum green, " + seconds(s.longest_green_s()));
+            if (s.min_green_s <= s.longest_green_s()) return;
+            if (check.given("min_green")) {
+                check.error("min_green", seconds(s.min_green_s) + " is longer than the maximum green, " +
+                                             seconds(s.longest_green_s()));
+            } else if (check.given("max_green")) {
+                check.error("max_green", seconds(s.max_green_s) + " is shorter than the minimum green, " +
+                                             seconds(s.min_green_s) + " (min_green)");
+            }
         });
     return table;
 }

@@ -176,7 +176,7 @@ const Table& speed_advice_table() {
             number<&S::range_m>("range", "m", {10, 10'000},
                                 "distance to the stop line within which the vehicle gets the messages of the signal")
                 .only_if("mode", {"glosa"}),
-            number<&S::min_speed_mps>("min_speed", "km/h", {1, 200}, "lowest advised speed").only_if("mode", {"glosa"}),
+            number<&S::min_speed_mps>("min_speed", "km/h", {5, 200}, "lowest advised speed").only_if("mode", {"glosa"}),
             number<&S::deceleration_mps2>("deceleration", "m/s2", {0.1, 5},
                                           "strongest braking towards the advised speed")
                 .only_if("mode", {"glosa"}),
