@@ -7,11 +7,17 @@
 // stop line, and from the tick at which a vehicle passes the other one at red. The call of a lane with several
 // movements belongs to the phases that give green to all of them. If there are none, it belongs to the phases that give
 // green to one of them.
+//
+// With `platoon_range`, platoons announce by V2V when their rear will pass the stop line. The green then lasts until
+// the rear of the platoon has passed, if this is before the maximum. Otherwise the green ends while the whole platoon
+// can still stop. So the green ends between two platoons, or between two mini-platoons if the length of platoons is
+// limited. A platoon of which some vehicles cannot stop any more keeps the green until the maximum.
 #include <algorithm>
 
 #include <fmt/format.h>
 
 #include "signals/actuation.h"
+#include "signals/phase_lights.h"
 #include "signals/signal_controller.h"
 
 namespace stopline {
@@ -28,6 +34,14 @@ constexpr std::size_t kNextPhase = 2;
 constexpr std::size_t kStartTick = 3;
 constexpr std::size_t kMaximumFrom = 4;
 constexpr std::size_t kGreenEnds = 5;
+
+// Index in SignalPlan::values, after those of signals/actuation.h.
+constexpr std::size_t kPlatoonRange = 2;
+constexpr std::array kActuatedParameters{
+    kStopDetectorParameter, kAdvanceDetectorParameter,
+    SignalParameter{"platoon_range", "m", 0, 1000, "0 m",
+                    "distance from the stop line within which platoons announce by V2V when their rear will pass; a "
+                    "green lasts until then if its maximum allows, else it ends before the platoon; 0 m: off"}};
 
 class ActuatedSignal {
 public:
@@ -95,10 +109,7 @@ private:
         begin_interval(Interval::green);
         memory_[kPhase] = next;
         memory_[kMaximumFrom] = -1;
-        for (int group = 0; group < view_.groups(); ++group) {
-            view_.show(group, phase(next).has_green(group) ? Light::green : Light::red);
-        }
-        view_.begin_phase(next);
+        show_phase(view_, next);
         if (called_phase() >= 0) memory_[kMaximumFrom] = view_.tick();
         return view_.tick() + 1;
     }
@@ -122,38 +133,41 @@ private:
         if (own.recall == Recall::maximum) return shown >= maximum;
         if (shown < own.min_green_ticks) return false;
         if (view_.tick() - memory_[kMaximumFrom] >= maximum) return true;
-        return shown % decision_ticks(view_.plan()) == 0 && gap_has_passed(own);
+        if (shown % decision_ticks(view_.plan()) != 0) return false;
+        const auto detectors = view_.detectors();
+        return std::none_of(detectors.begin(), detectors.end(), [&](const SignalDetector& detector) {
+            return extends_phase(view_.plan(), detector, present()) && extends_green(detector);
+        });
     }
 
-    bool gap_has_passed(const SignalPhase& own) const {
-        const auto extends = [&](const SignalDetector& detector) {
-            const bool is_used =
-                is_at(view_.plan(), detector, kStopDetector) || is_at(view_.plan(), detector, kAdvanceDetector);
-            return is_used && extends_phase(view_.plan(), detector, present()) && detector.last_occupied_tick >= 0 &&
-                   view_.tick() - detector.last_occupied_tick < own.gap_ticks;
-        };
-        const auto detectors = view_.detectors();
-        return std::none_of(detectors.begin(), detectors.end(), extends);
+    // Returns true if a platoon that has been announced, or else a vehicle at a detector, extends the green.
+    bool extends_green(const SignalDetector& detector) const {
+        if (detector.platoon_rear_tick >= 0) {
+            return !detector.platoon_can_wait || detector.platoon_rear_tick <= latest_end();
+        }
+        const bool is_used =
+            is_at(view_.plan(), detector, kStopDetector) || is_at(view_.plan(), detector, kAdvanceDetector);
+        return is_used && detector.last_occupied_tick >= 0 &&
+               view_.tick() - detector.last_occupied_tick < phase(present()).gap_ticks;
+    }
+
+    // Returns the tick at which the maximum of the present green is over.
+    std::int64_t latest_end() const {
+        const SignalPhase& own = phase(present());
+        return memory_[kMaximumFrom] + std::max(own.max_green_ticks, own.min_green_ticks);
     }
 
     std::int64_t begin_yellow(int next) {
         memory_[kNextPhase] = next;
         begin_interval(Interval::yellow);
-        for (int group = 0; group < view_.groups(); ++group) {
-            if (view_.light(group) != Light::green) continue;
-            const Light light = plan_.light_after(present(), next, group, Light::yellow);
-            view_.show(group, light);
-            if (light != Light::green) green_end(group) = view_.tick();
-        }
+        show_yellow(view_, present(), next, [this](int group) { green_end(group) = view_.tick(); });
         const std::int64_t ticks = phase(present()).yellow_ticks;
         return ticks > 0 ? view_.tick() + ticks : begin_all_red();
     }
 
     std::int64_t begin_all_red() {
         begin_interval(Interval::all_red);
-        for (int group = 0; group < view_.groups(); ++group) {
-            if (view_.light(group) == Light::yellow) view_.show(group, Light::red);
-        }
+        show_red_after_yellow(view_);
         const std::int64_t ticks = phase(present()).all_red_ticks;
         return ticks > 0 ? view_.tick() + ticks : begin_green(static_cast<int>(memory_[kNextPhase]));
     }
@@ -269,7 +283,7 @@ extern const SignalController kActuatedController{
     .name = "actuated",
     .meaning =
         "phases end at gaps in the traffic, between their minimum and maximum green, and are skipped without a call",
-    .parameters = kActuationParameters,
+    .parameters = kActuatedParameters,
     .nominal_cycle = actuated_cycle,
     .init = start_actuated,
     .step = [](SignalView& view) { return ActuatedSignal(view).step(); },
@@ -280,6 +294,7 @@ extern const SignalController kActuatedController{
         },
     .memory_size = [](const SignalPlan& plan) { return kGreenEnds + plan.groups.size(); },
     .detectors_m = actuation_detectors_m,
+    .platoon_range_m = [](const SignalPlan& plan) { return plan.values[kPlatoonRange]; },
     .problems = actuated_problems,
     .runs_phases = true};
 

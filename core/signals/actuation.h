@@ -15,11 +15,16 @@ namespace stopline {
 // Indices in SignalPlan::values.
 inline constexpr std::size_t kStopDetector = 0;
 inline constexpr std::size_t kAdvanceDetector = 1;
-inline constexpr std::array kActuationParameters{
-    SignalParameter{"stop_detector", "m", 0, 50, "3 m",
-                    "distance from the stop line to the detector for queued vehicles"},
-    SignalParameter{"advance_detector", "m", 0, 500, "40 m",
-                    "distance from the stop line to the upstream detector, which extends green; 0 m: none"}};
+inline constexpr SignalParameter kStopDetectorParameter{
+    "stop_detector", "m", 0, 50, "3 m", "distance from the stop line to the detector for queued vehicles"};
+inline constexpr SignalParameter kAdvanceDetectorParameter{
+    "advance_detector",
+    "m",
+    0,
+    500,
+    "40 m",
+    "distance from the stop line to the upstream detector, which extends green; 0 m: none"};
+inline constexpr std::array kActuationParameters{kStopDetectorParameter, kAdvanceDetectorParameter};
 
 // Returns true if the detector is the one of this parameter, kStopDetector or kAdvanceDetector. The detectors of an
 // imported programme count as detectors at the stop line.

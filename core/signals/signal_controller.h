@@ -54,6 +54,9 @@ struct SignalController {
     // Returns the distances from the stop line at which each approach lane gets a detector for the controller, m.
     // Every approach lane also has a detector at the stop line. nullptr: no further detectors.
     std::vector<double> (*detectors_m)(const SignalSettings& settings) = nullptr;
+    // Returns the distance from the stop line within which platoons announce their arrival by V2V, m; 0: the controller
+    // does not hear them. nullptr: it never does.
+    double (*platoon_range_m)(const SignalPlan& plan) = nullptr;
     // Returns contradictions between settings, each of which is within its range. nullptr: no contradiction is
     // possible.
     std::vector<SignalProblem> (*problems)(const SignalSettings& settings, int groups) = nullptr;

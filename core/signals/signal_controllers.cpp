@@ -19,6 +19,7 @@ static std::vector<const SignalController*>& controllers() {
         STOPLINE_DEFINED_ELSEWHERE(SignalController, kFixedTimeController),
         STOPLINE_DEFINED_ELSEWHERE(SignalController, kActuatedController),
         STOPLINE_DEFINED_ELSEWHERE(SignalController, kDualRingController),
+        STOPLINE_DEFINED_ELSEWHERE(SignalController, kExternalController),
         // NOLINTEND(readability-identifier-naming)
     };
     return all;

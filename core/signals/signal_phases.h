@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "signals/programme.h"
-#include "signals/ring_plan.h"
+#include "signals/rings/ring_plan.h"
 #include "signals/signal_settings.h"
 #include "signals/timeline.h"
 

@@ -171,7 +171,8 @@ TEST(LoadScenario, ErrorsNamePlaceFieldValueAndRemedy) {
     EXPECT_EQ(
         error_of("signal:\n  gren: 15 s\n"),
         "test.yaml:2:3: field 'signal.gren' is unknown; did you mean 'green'? Known: controller, first_green, green, cross_green, "
-        "yellow, all_red, offset, cycle, phases, programmes, clock, stop_detector, advance_detector");
+        "yellow, all_red, offset, cycle, phases, programmes, clock, stop_detector, advance_detector, "
+        "platoon_range");
     EXPECT_EQ(error_of("fidelity: ful\n"),
               "test.yaml:1:11: field 'fidelity': value 'ful' is unknown; did you mean 'full'? "
               "Known: full, meso");

@@ -67,6 +67,12 @@ public:
         detector.last_crossing_tick = detector.last_occupied_tick = tick_ + 1;
     }
 
+    // The green that the controller announces at the present tick.
+    GreenWindow next_green(int group) {
+        const SignalView view(plan_, 0, tick_, state_);
+        return plan_.controller->next_green(view, group, tick_);
+    }
+
     std::int64_t tick() const { return tick_; }
     const SignalState& state() const { return state_; }
     const PhasePlan& phases() const { return plan_.phases; }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "signals/actuated_junction.h"
+#include "signals/announced_greens.h"
 
 namespace stopline {
 namespace {
@@ -154,7 +155,7 @@ SignalSettings random_phases(Random& random) {
     return settings;
 }
 
-// In random histories of detectors no two conflicting groups have green, and all times are kept.
+// In random histories of detectors no two conflicting groups have green, and all times and announcements are kept.
 TEST(Actuated, KeepsItsTimesInRandomHistories) {
     constexpr int kSignals = 100;
     constexpr int kTicks = 10'000;  // for each signal, so 10^6 in total
@@ -162,9 +163,11 @@ TEST(Actuated, KeepsItsTimesInRandomHistories) {
     int phase_changes = 0;
     int minimum_greens = 0;
     int maximum_greens = 0;
+    int announced_ahead = 0;
     for (int signal = 0; signal < kSignals; ++signal) {
         Junction junction(random_phases(random), kMovements);
         SafetyCheck check(junction);
+        AnnouncedGreens announced;
         const double change = std::pow(10.0, uniform(random, -3.0, -0.5));  // probability that a detector changes
         for (int k = 0; k < kTicks; ++k) {
             for (std::size_t lane = 0; lane < junction.lanes(); ++lane) {
@@ -176,15 +179,18 @@ TEST(Actuated, KeepsItsTimesInRandomHistories) {
             }
             junction.step();
             check.observe();
+            announced.observe(junction);
             if (HasFatalFailure()) return;
         }
         phase_changes += check.phase_changes;
         minimum_greens += check.minimum_greens;
         maximum_greens += check.maximum_greens;
+        announced_ahead += announced.announced_ahead;
     }
     EXPECT_GT(phase_changes, 3000);
     EXPECT_GT(minimum_greens, 100);
     EXPECT_GT(maximum_greens, 100);
+    EXPECT_GT(announced_ahead, 10'000);
 }
 
 SignalSettings two_streets(const std::string& recall = "off") {
@@ -248,6 +254,35 @@ TEST(Actuated, AVehicleExtendsGreenUpToTheMaximum) {
     phases_within(other, 10.0);
     EXPECT_EQ(other.state().lights[0], Light::red);
     EXPECT_EQ(other.state().green_start_tick[4], 11 + 3 * 29 + 30 + 50) << "the gap, yellow and red after the last one";
+}
+
+// Announces a platoon on the first lane until its rear has passed. Vehicles cover the upstream detector all the time.
+// Returns the tick at which the green of this lane ends.
+std::int64_t green_end_with_platoon(std::int64_t rear_tick, bool can_wait) {
+    Junction junction(two_streets("minimum"), kMovements);
+    phases_within(junction, 1.0);
+    while (junction.light(0) == Light::green && junction.tick() < 1'000) {
+        const bool has_passed = junction.tick() >= rear_tick;
+        for (SignalDetector* detector : {&junction.stop_detector(0), &junction.advance_detector(0)}) {
+            detector->platoon_rear_tick = has_passed ? -1 : rear_tick;
+            detector->platoon_can_wait = can_wait;
+        }
+        junction.occupy(junction.advance_detector(0), !has_passed);
+        junction.step();
+    }
+    return junction.tick();
+}
+
+TEST(Actuated, GreenLastsUntilTheRearOfAnAnnouncedPlatoonHasPassed) {
+    // Green begins at tick 10, and the maximum is 30 s. The gap of 3 s follows the last vehicle at the detector.
+    EXPECT_EQ(green_end_with_platoon(200, true), 200 + 30);
+    EXPECT_EQ(green_end_with_platoon(310, true), 310);
+    EXPECT_EQ(green_end_with_platoon(310, false), 310);
+}
+
+TEST(Actuated, APlatoonThatDoesNotFitWaitsIfItCan) {
+    EXPECT_EQ(green_end_with_platoon(311, true), 10 + 50) << "the minimum of 5 s";
+    EXPECT_EQ(green_end_with_platoon(311, false), 310) << "the maximum of 30 s";
 }
 
 // A vehicle that passes the upstream detector at red calls its phase. One that passes it at green does not.

@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "signals/announced_greens.h"
 #include "signals/ring_junction.h"
-#include "signals/ring_problems.h"
+#include "signals/rings/ring_problems.h"
 
 namespace stopline {
 namespace {
@@ -350,6 +351,27 @@ void expect_all_situations(const Counts& counts, int histories) {
 TEST(DualRing, KeepsItsRulesInRandomHistories) {
     const Counts counts = check_histories(1, 300, 300.0);
     expect_all_situations(counts, 300);
+}
+
+TEST(DualRing, KeepsAnnouncedGreensInRandomHistories) {
+    Random random(3);
+    int announced_ahead = 0;
+    int announced_rests = 0;
+    for (int history = 0; history < 300; ++history) {
+        Junction junction(random_rings(random), kMovements);
+        RandomTraffic traffic(random, junction.lanes());
+        AnnouncedGreens announced;
+        while (junction.tick() < to_ticks(100.0, kStep_s)) {
+            traffic.set_detectors(junction);
+            junction.step();
+            announced.observe(junction);
+            ASSERT_FALSE(HasFatalFailure()) << "history " << history;
+        }
+        announced_ahead += announced.announced_ahead;
+        announced_rests += announced.announced_rests;
+    }
+    EXPECT_GT(announced_ahead, 10'000);
+    EXPECT_GT(announced_rests, 10'000);
 }
 
 TEST(SlowDualRing, KeepsItsRulesInAMillionRandomHistories) {

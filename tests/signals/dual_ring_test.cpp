@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "signals/ring_junction.h"
-#include "signals/ring_problems.h"
+#include "signals/rings/ring_problems.h"
 
 namespace stopline {
 namespace {

@@ -1,6 +1,7 @@
 #include "sim/full_dynamics/full_dynamics.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/containers/index.h"
 #include "base/simd/narrowed.h"
@@ -93,6 +94,24 @@ void apply_classes(const Model& model, int vehicles, const FullGroup& g) {
     }
 }
 
+// Puts the accelerations of the program (ExternalRequests) in the place of the gap laws. A desired gap far below the
+// real one makes the gap law ask for the highest acceleration, so the demand decides.
+void apply_external_requests(const State& state, const LaneGroup& lanes, const FullGroup& g) {
+    constexpr double kNoGap_m = -1e6;
+    if (state.external_requests.empty()) return;
+    int place = 0;
+    for (const LaneStep& lane : lanes.lanes) {
+        for (int slot = lane.begin; slot < lane.stop; ++slot, ++place) {
+            const float request_mps2 = state.external_requests.of(state.vehicles.id[at(slot)]);
+            if (std::isnan(request_mps2)) continue;
+            g.desired_gap[place] = kNoGap_m;
+            g.slope[place] = 0.0;
+            g.is_platoon_leader[place] = 0.0F;
+            g.demand[place] = std::min(g.demand[place], request_mps2);
+        }
+    }
+}
+
 }  // namespace
 
 FullTables full_tables(const Model& model) {
@@ -115,6 +134,7 @@ void step_full(const Model& model, const FullTables& tables, const LaneGroup& la
     if (state.vehicles.has_v2v_channel) {
         receive_messages(model, kernels, tables.receive_policies, lanes, next, group, state, part);
     }
+    apply_external_requests(state, lanes, group);
     for (std::size_t k = 0; k < tables.drivers.size(); ++k) {
         const int only = tables.drivers.size() == 1 ? -1 : static_cast<int>(k);
         const auto plan = model.drivers[k].is_human ? kernels.plan_human : kernels.plan;

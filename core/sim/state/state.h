@@ -9,6 +9,7 @@
 #include "sim/state/clearing_state.h"
 #include "sim/state/congestion_state.h"
 #include "sim/state/detector_state.h"
+#include "sim/state/external_requests.h"
 #include "sim/state/gap_requests.h"
 #include "sim/state/insertion_state.h"
 #include "sim/state/junction_state.h"
@@ -55,7 +56,8 @@ struct State {
     DetectorState detectors;
     InsertionState insertion;
     CongestionState congestion;
-    PrescribedAcceleration prescribed;  // applies to all later steps, until the program changes it
+    ExternalRequests external_requests;  // changed by the program between steps
+    PrescribedAcceleration prescribed;   // applies to all later steps, until the program changes it
     RunRecords records;
 
     explicit State(const Model& model) : plan(model) {}

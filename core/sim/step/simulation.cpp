@@ -2,8 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <stdexcept>
 
+#include <fmt/format.h>
+
+#include "base/containers/index.h"
 #include "base/state_hash.h"
+#include "signals/external.h"
 #include "sim/clearing/cooperative_clearing.h"
 #include "sim/congestion/delay_causes.h"
 #include "sim/congestion/teleport.h"
@@ -12,10 +17,10 @@
 #include "sim/full_dynamics/receive_messages.h"
 #include "sim/insertion/insert_vehicles.h"
 #include "sim/insertion/trips.h"
+#include "sim/junction/lights/phase_priority.h"
+#include "sim/junction/lights/signals.h"
 #include "sim/junction/occupants.h"
-#include "sim/junction/phase_priority.h"
 #include "sim/junction/right_of_way.h"
-#include "sim/junction/signals.h"
 #include "sim/junction/stop_lines.h"
 #include "sim/lane_change/gap_cooperation.h"
 #include "sim/lane_change/gap_search.h"
@@ -67,6 +72,42 @@ Simulation::Simulation(const Model& model, int threads)
     init_gap_cooperation(model_, state_);
     insert_initial_queues(model_, state_);
     start_signals(model_, state_);
+}
+
+void Simulation::request_acceleration(int vehicle, double acceleration_mps2) {
+    if (model_.meso)
+        throw std::invalid_argument(
+            "vehicles of the mesoscale mode have no requested acceleration; use fidelity: full");
+    if (vehicle < 0 || vehicle >= state_.insertion.next_id)
+        throw std::invalid_argument(fmt::format("vehicle {} has not entered the network", vehicle));
+    state_.external_requests.set(vehicle, acceleration_mps2);
+}
+
+bool Simulation::set_policy(int vehicle, int policy) {
+    if (policy < 0 || at(policy) >= model_.policies.size())
+        throw std::invalid_argument(fmt::format("policy {} does not exist; the population has the policies 0 to {}",
+                                                policy, model_.policies.size() - 1));
+    VehicleArrays& v = state_.vehicles;
+    for (const LaneBlock& block : state_.blocks) {
+        for (int slot = block.first; slot < block.past_last(); ++slot) {
+            if (v.id[at(slot)] != vehicle) continue;
+            const VehicleClass& present = model_.classes[at(v.policy[at(slot)])];
+            const VehicleClass& wanted = model_.classes[at(policy)];
+            if (present.vehicle != wanted.vehicle || present.driver != wanted.driver)
+                throw std::invalid_argument("the policy belongs to another vehicle type or driver");
+            v.policy[at(slot)] = policy;
+            v.standstill_gap_m[at(slot)] = static_cast<float>(model_.policies[at(policy)].settings.standstill_gap_m);
+            return true;
+        }
+    }
+    return false;
+}
+
+void Simulation::request_phase(std::size_t signal, int phase) {
+    if (signal >= model_.signals.size())
+        throw std::invalid_argument(
+            fmt::format("signal {} does not exist; the network has {}", signal, model_.signals.size()));
+    stopline::request_phase(model_.signals[signal], signal, phase, state_.signals);
 }
 
 void Simulation::decide(int thread, int threads) {

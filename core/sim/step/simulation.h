@@ -22,7 +22,7 @@
 //     insertion   vehicles that enter the network                               insertion/
 //     teleport    vehicles that have been stopped for too long                  congestion/teleport
 //     change      lane changes                                                  lane_change/lane_change
-//     signals     lights of the next step, by the signal controllers            junction/signals
+//     signals     lights of the next step, by the signal controllers            junction/lights/signals
 //
 // For each partition, the phases from `occupied` to `selection` read the state at the beginning of the step, and write
 // only data of this partition. Results therefore do not depend on the number of partitions and threads.
@@ -53,6 +53,15 @@ public:
 
     // Limits the acceleration of one vehicle in all later steps. `vehicle` is its id; -1 ends the limit.
     void prescribe(const PrescribedAcceleration& prescribed) { state_.prescribed = prescribed; }
+
+    // Sets the acceleration of a vehicle in all later steps (ExternalRequests). NaN: the gap law applies again. Throws
+    // std::invalid_argument in the mesoscale mode.
+    void request_acceleration(int vehicle, double acceleration_mps2);
+    // Changes the spacing policy of a vehicle. Returns false if the vehicle is not in the network. `policy`: index in
+    // Model::policies. Throws std::invalid_argument if its vehicle type or driver differs from the present one.
+    bool set_policy(int vehicle, int policy);
+    // Asks a signal with the controller `external` for a phase (signals/external.h).
+    void request_phase(std::size_t signal, int phase);
 
     // Runs all phases of one step.
     void step();

@@ -8,8 +8,8 @@
 
 #include "base/containers/index.h"
 #include "base/input_error.h"
-#include "signals/ring_plan.h"
-#include "signals/ring_problems.h"
+#include "signals/rings/ring_plan.h"
+#include "signals/rings/ring_problems.h"
 #include "sumo_import/controllers/sumo_controller.h"
 
 namespace stopline {

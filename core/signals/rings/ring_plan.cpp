@@ -1,4 +1,4 @@
-#include "signals/ring_plan.h"
+#include "signals/rings/ring_plan.h"
 
 #include <algorithm>
 #include <map>

@@ -1,10 +1,11 @@
-#include "sim/junction/signals.h"
+#include "sim/junction/lights/signals.h"
 
 #include <algorithm>
 #include <limits>
 
 #include "base/containers/index.h"
 #include "signals/signal_controller.h"
+#include "sim/junction/lights/announced_platoon.h"
 #include "sim/state/queries/covered_detector.h"
 
 namespace stopline {
@@ -64,11 +65,20 @@ std::vector<std::vector<SignalDetector>> signal_detectors(const Model& model) {
     return detectors;
 }
 
-void read_detectors(const Model& model, const State& state, std::vector<SignalDetector>& detectors) {
+// Reads the detectors of a signal, and the announcements of platoons if its controller hears them.
+void read_detectors(const Model& model, const State& state, const SignalPlan& plan,
+                    std::vector<SignalDetector>& detectors) {
+    auto* const range_of = plan.controller->platoon_range_m;
+    const double platoon_range_m = range_of == nullptr ? 0.0 : range_of(plan);
     for (SignalDetector& detector : detectors) {
         detector.is_occupied = is_covered(model, state, at(detector.number));
         if (detector.is_occupied) detector.last_occupied_tick = state.tick;
         detector.last_crossing_tick = state.detectors.last_crossing_tick[at(detector.number)];
+        if (platoon_range_m <= 0.0) continue;
+        const AnnouncedPlatoon platoon =
+            announced_platoon(model, state, model.detectors[at(detector.number)].lane, platoon_range_m);
+        detector.platoon_rear_tick = platoon.rear_tick;
+        detector.platoon_can_wait = platoon.can_wait;
     }
 }
 
@@ -91,7 +101,7 @@ void start_signals(const Model& model, State& state) {
         if (plan.controller->memory_size != nullptr) {
             signals.memory[signal].assign(plan.controller->memory_size(plan), 0);
         }
-        read_detectors(model, state, signals.detectors[signal]);
+        read_detectors(model, state, plan, signals.detectors[signal]);
         SignalView view(plan, signal, state.tick, signals);
         signals.next_step_tick[signal] = plan.controller->init(view);
         signals.first_step_tick = std::min(signals.first_step_tick, signals.next_step_tick[signal]);
@@ -108,7 +118,7 @@ void update_signals(const Model& model, State& state) {
     std::int64_t first_tick = std::numeric_limits<std::int64_t>::max();
     for (std::size_t signal = 0; signal < model.signals.size(); ++signal) {
         if (!signals.detectors[signal].empty()) {
-            read_detectors(model, state, signals.detectors[signal]);
+            read_detectors(model, state, model.signals[signal], signals.detectors[signal]);
             first_tick = state.tick + 1;
         }
         if (state.tick >= signals.next_step_tick[signal]) {

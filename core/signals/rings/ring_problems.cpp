@@ -1,4 +1,4 @@
-#include "signals/ring_problems.h"
+#include "signals/rings/ring_problems.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "signals/ring_plan.h"
+#include "signals/rings/ring_plan.h"
 
 namespace stopline {
 

@@ -1,4 +1,4 @@
-#include "sim/junction/phase_priority.h"
+#include "sim/junction/lights/phase_priority.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -18,57 +18,32 @@
 #include <fmt/format.h>
 
 #include "signals/actuation.h"
-#include "signals/ring_problems.h"
+#include "signals/rings/ring_memory.h"
+#include "signals/rings/ring_problems.h"
 #include "signals/signal_controller.h"
 
 namespace stopline {
 
 namespace {
 
-// red: the ring has no phase, or its phase is over and the other ring is not cleared yet.
-enum class RingInterval : std::uint8_t { green, yellow, all_red, red };
-
-// Indices in the memory of the controller. The first numbers belong to the whole signal. The numbers of the two rings
-// follow, then the ticks at which the groups last lost green.
-constexpr std::size_t kHasBegun = 0;
-constexpr std::size_t kSide = 1;
-constexpr std::size_t kIsCrossing = 2;
-constexpr std::size_t kRingNumbers = 3;
-
-// Numbers of a ring. kCurrentPhase: -1: none. kLastPlace: place of the last phase on the present side; -1: none.
-// kClearing: groups that show yellow or red after the phase. kMaximumStart: tick from which the maximum green counts;
-// -1: no call of another phase yet. kExtension: last decision tick at which a vehicle covered a detector of the phase.
-// kPoint: tick of the next force-off point, or yield point of a coordinated phase.
-constexpr std::size_t kRingInterval = 0;
-constexpr std::size_t kCurrentPhase = 1;
-constexpr std::size_t kFollowingPhase = 2;
-constexpr std::size_t kIntervalStart = 3;
-constexpr std::size_t kLastPlace = 4;
-constexpr std::size_t kClearing = 5;
-constexpr std::size_t kMaximumStart = 6;
-constexpr std::size_t kExtension = 7;
-constexpr std::size_t kPoint = 8;
-constexpr std::size_t kNumbersOfRing = 9;
-constexpr std::size_t kGroupEnds = kRingNumbers + kRings * kNumbersOfRing;
-
 class DualRingSignal {
 public:
     explicit DualRingSignal(SignalView& view)
-        : view_(view), plan_(view.plan().phases), rings_(plan_.rings), memory_(view.memory()) {}
+        : view_(view), plan_(view.plan().phases), rings_(plan_.rings), memory_(view.memory(), plan_) {}
 
     void reset() {
         for (std::size_t ring = 0; ring < kRings; ++ring) {
             set(ring, RingInterval::red);
             at(ring, kCurrentPhase) = at(ring, kFollowingPhase) = at(ring, kLastPlace) = -1;
         }
-        for (int group = 0; group < view_.groups(); ++group) memory_[kGroupEnds + index(group)] = -1;
+        for (int group = 0; group < view_.groups(); ++group) memory_.green_end(group) = -1;
     }
 
     // Sets the lights of the present tick.
     void step() {
-        if (memory_[kHasBegun] == 0) return begin_run();
+        if (memory_.has_begun() == 0) return begin_run();
         for (std::size_t ring = 0; ring < kRings; ++ring) clear(ring);
-        if (memory_[kIsCrossing] != 0) {
+        if (memory_.is_crossing() != 0) {
             if (interval(0) == RingInterval::red && interval(1) == RingInterval::red) begin_side();
             return;
         }
@@ -79,22 +54,18 @@ public:
 
 private:
     static std::size_t index(int number) { return static_cast<std::size_t>(number); }
-    std::int64_t& at(std::size_t ring, std::size_t number) {
-        return memory_[kRingNumbers + ring * kNumbersOfRing + number];
-    }
-    std::int64_t at(std::size_t ring, std::size_t number) const {
-        return memory_[kRingNumbers + ring * kNumbersOfRing + number];
-    }
-    RingInterval interval(std::size_t ring) const { return static_cast<RingInterval>(at(ring, kRingInterval)); }
-    int current(std::size_t ring) const { return static_cast<int>(at(ring, kCurrentPhase)); }
-    int following(std::size_t ring) const { return static_cast<int>(at(ring, kFollowingPhase)); }
-    int side() const { return static_cast<int>(memory_[kSide]); }
-    const SignalPhase& phase(int number) const { return plan_.phases[index(number)]; }
+    std::int64_t& at(std::size_t ring, std::size_t number) { return memory_.at(ring, number); }
+    std::int64_t at(std::size_t ring, std::size_t number) const { return memory_.at(ring, number); }
+    RingInterval interval(std::size_t ring) const { return memory_.interval(ring); }
+    int current(std::size_t ring) const { return memory_.current(ring); }
+    int following(std::size_t ring) const { return memory_.following(ring); }
+    int side() const { return static_cast<int>(memory_.side()); }
+    const SignalPhase& phase(int number) const { return memory_.phase(number); }
     const RingPhase& in_ring(int number) const { return rings_.phases[index(number)]; }
     bool is_imported() const { return !view_.plan().lane_detectors.empty(); }
     bool is_decision() const { return view_.tick() % decision_ticks(view_.plan()) == 0; }
     bool is_coordinated(int number) const { return rings_.is_coordinated() && in_ring(number).is_coordinated; }
-    bool has_green(std::size_t ring) const { return interval(ring) == RingInterval::green; }
+    bool has_green(std::size_t ring) const { return memory_.has_green(ring); }
     bool is_green(int number) const {
         const std::size_t ring = in_ring(number).ring;
         return has_green(ring) && current(ring) == number;
@@ -109,9 +80,9 @@ private:
     // --- Lights ---------------------------------------------------------------------------------------------------
 
     void begin_run() {
-        memory_[kHasBegun] = 1;
+        memory_.has_begun() = 1;
         const int target = rings_.is_coordinated() ? coordinated_side() : first_called_side();
-        memory_[kSide] = target;
+        memory_.side() = target;
         for (std::size_t ring = 0; ring < kRings; ++ring) {
             const auto& order = rings_.order[ring][index(target)];
             int next = rings_.is_coordinated() ? rings_.coordinated[ring] : entering_phase(ring, target, 0);
@@ -131,14 +102,14 @@ private:
     }
 
     void begin_side() {
-        memory_[kIsCrossing] = 0;
+        memory_.is_crossing() = 0;
         for (std::size_t ring = 0; ring < kRings; ++ring) {
             at(ring, kCurrentPhase) = -1;
             at(ring, kLastPlace) = -1;
         }
         for (std::size_t ring = 0; ring < kRings; ++ring) {
             if (following(ring) >= 0) {
-                memory_[kSide] = in_ring(following(ring)).side;
+                memory_.side() = in_ring(following(ring)).side;
                 begin_green(ring, following(ring));
             }
         }
@@ -163,9 +134,7 @@ private:
         if (!phase(current(ring)).has_green(group) || is_clearing(1 - ring, group)) return;
         view_.show(group, Light::green);
     }
-    bool is_clearing(std::size_t ring, int group) const {
-        return (static_cast<std::uint64_t>(at(ring, kClearing)) & bit(group)) != 0;
-    }
+    bool is_clearing(std::size_t ring, int group) const { return memory_.is_clearing(ring, group); }
 
     void begin_yellow(std::size_t ring, int next) {
         at(ring, kFollowingPhase) = next;
@@ -175,14 +144,14 @@ private:
             if (keeps_green(0, group) || keeps_green(1, group)) continue;
             at(ring, kClearing) |= static_cast<std::int64_t>(bit(group));
             view_.show(group, Light::yellow);
-            memory_[kGroupEnds + index(group)] = view_.tick();
+            memory_.green_end(group) = view_.tick();
         }
         clear(ring);
     }
 
     // Returns true if the ring has green for the group now, and in its next phase if the present phase is ending.
     bool keeps_green(std::size_t ring, int group) const {
-        if (current(ring) < 0 || !phase(current(ring)).has_green(group)) return false;
+        if (!memory_.serves(ring, group)) return false;
         if (has_green(ring)) return true;
         return following(ring) >= 0 && phase(following(ring)).has_green(group);
     }
@@ -201,7 +170,7 @@ private:
         for (int group = 0; group < view_.groups(); ++group) {
             if ((cleared & bit(group)) != 0 && has_green(1 - ring)) show_green_of(1 - ring, group);
         }
-        if (memory_[kIsCrossing] != 0) {
+        if (memory_.is_crossing() != 0) {
             set(ring, RingInterval::red);
         } else {
             begin_green(ring, following(ring));
@@ -253,7 +222,7 @@ private:
         const std::int64_t start = view_.tick() + crossing_ticks();
         std::array<int, kRings> next{};
         for (std::size_t ring = 0; ring < kRings; ++ring) next[ring] = entering_phase(ring, target, start);
-        memory_[kIsCrossing] = 1;
+        memory_.is_crossing() = 1;
         for (std::size_t ring = 0; ring < kRings; ++ring) at(ring, kFollowingPhase) = next[ring];
         std::array<bool, kRings> ends{has_green(0), has_green(1)};
         // Both greens end at once: neither ring keeps the green of a group for the other one.
@@ -392,7 +361,7 @@ private:
         for (int group = 0; group < view_.groups(); ++group) {
             if ((detector.groups & bit(group)) == 0) continue;
             if (view_.light(group) == Light::green) return false;
-            last_end = std::max(last_end, memory_[kGroupEnds + index(group)]);
+            last_end = std::max(last_end, memory_.green_end(group));
         }
         return detector.last_crossing_tick > last_end;
     }
@@ -404,7 +373,7 @@ private:
     SignalView& view_;
     const PhasePlan& plan_;
     const RingPlan& rings_;
-    std::span<std::int64_t> memory_;
+    RingMemory memory_;
 };
 
 std::int64_t start_rings(SignalView& view) {
@@ -440,7 +409,8 @@ extern const SignalController kDualRingController{
     .nominal_cycle = nominal_ring_cycle,
     .init = start_rings,
     .step = step_rings,
-    .memory_size = [](const SignalPlan& plan) { return kGroupEnds + plan.groups.size(); },
+    .next_green = next_ring_green,
+    .memory_size = [](const SignalPlan& plan) { return RingMemory::size(plan.groups.size()); },
     .detectors_m = actuation_detectors_m,
     .problems = ring_problems,
     .runs_phases = true,
