@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs missing Debian packages. If no package is missing, the script does nothing and needs no network.
-#   apps/install_packages.sh SECTION...      sections of apps/packages.txt: quickstart, tests, sanitizers
+#   apps/install_packages.sh SECTION...      sections of apps/packages.txt: quickstart, tests, python, sanitizers
 # With STOPLINE_SKIP_PACKAGES=1 the script installs nothing. This is for systems on which the packages have other names.
 set -euo pipefail
 

@@ -33,6 +33,7 @@
 #include "runs/network/street_results.h"
 #include "runs/provenance.h"
 #include "runs/run_kind.h"
+#include "runs/run_report.h"
 #include "runs/single_light/single_light.h"
 #include "runs/single_light/single_light_csv.h"
 #include "runs/tables/column_aliases.h"
@@ -118,13 +119,9 @@ double trajectory_interval_s(const RunCliOptions& options, const Scenario& scena
     return interval.si;
 }
 
-using NamedText = std::pair<std::string, std::string>;
-
-using StateHashes = std::vector<std::pair<std::string, std::string>>;  // name and final state hash of each population
-
 // Writes the tables and the provenance file, and prints their names.
 void write_tables(const RunCliOptions& options, const Scenario& scenario, std::vector<NamedText> files,
-                  StateHashes state_hashes, const std::filesystem::path& folder) {
+                  StateHashes hashes, const std::filesystem::path& folder) {
     Provenance provenance;
     provenance.command = command_text("stopline-run", options.file, options.common);
     if (options.trajectories) provenance.command += " --trajectories --interval " + shell_word(options.interval);
@@ -140,7 +137,7 @@ void write_tables(const RunCliOptions& options, const Scenario& scenario, std::v
         text = std::move(file.text);
         provenance.files.push_back(name);
     }
-    provenance.state_hashes = std::move(state_hashes);
+    provenance.state_hashes = std::move(hashes);
     files.emplace_back(scenario.name + ".provenance.json", provenance_json(scenario, provenance));
     fmt::print("\nWritten to {}\n", folder.string());
     for (const auto& [name, text] : files) {
@@ -149,38 +146,18 @@ void write_tables(const RunCliOptions& options, const Scenario& scenario, std::v
     }
 }
 
-// Adds the table of changes between the modes of V2V if a channel is active.
-void add_v2v(const std::vector<PopulationV2v>& populations, std::vector<NamedText>& files) {
-    if (std::string text = v2v_modes_csv(populations); !text.empty())
-        files.emplace_back("v2v_modes.csv", std::move(text));
-}
-
 void write_results(const RunCliOptions& options, const SingleLightReport& result, double interval_s,
                    const std::filesystem::path& folder) {
-    std::vector<NamedText> files{{"summary.csv", summary_csv(result)},
-                                 {"improvement.csv", improvement_csv(result)},
-                                 {"passages.csv", passages_csv(result)}};
+    std::vector<NamedText> files = result_tables(result);
     if (options.trajectories) files.emplace_back("trajectories.csv", trajectories_csv(result, interval_s));
-    add_v2v(v2v_of(result.runs), files);
-    StateHashes hashes;
-    for (const RunResult& run : result.runs) {
-        hashes.emplace_back(run.population, fmt::format("{:016x}", run.state_hash));
-    }
-    write_tables(options, result.scenario, std::move(files), std::move(hashes), folder);
+    write_tables(options, result.scenario, std::move(files), state_hashes(result.runs), folder);
 }
 
 void write_results(const RunCliOptions& options, const IntersectionReport& report,
                    const std::filesystem::path& folder) {
-    std::vector<NamedText> files{{"summary.csv", intersection_csv(report)},
-                                 {"headways.csv", headways_csv(report)},
-                                 {"starvations.csv", starvations_csv(report.starvations(), report.lanes)}};
+    std::vector<NamedText> files = result_tables(report);
     if (options.trajectories) files.emplace_back("trajectories.csv", intersection_trajectories_csv(report));
-    add_v2v(v2v_of(report.populations), files);
-    StateHashes hashes;
-    for (const IntersectionResult& f : report.populations) {
-        hashes.emplace_back(f.population, fmt::format("{:016x}", f.state_hash));
-    }
-    write_tables(options, report.scenario, std::move(files), std::move(hashes), folder);
+    write_tables(options, report.scenario, std::move(files), state_hashes(report.populations), folder);
 }
 
 // Returns the title and the values of --set, such as "Grid of 25 intersections, with network.grid.columns=3".
@@ -229,32 +206,14 @@ ExitCode run_as_network(const RunCliOptions& options, const Scenario& scenario, 
     }();
     fmt::print("{}\nscenario {} ({:016x}), seed {}\n\n{}", heading(scenario, options.common), scenario.name,
                scenario.hash, scenario.seed, network_text(report));
-    StateHashes hashes;
-    for (const NetworkResult& f : report.populations) {
-        hashes.emplace_back(f.population, fmt::format("{:016x}", f.state_hash));
-    }
-    std::vector<NamedText> tables{{"summary.csv", network_csv(report)},
-                                  {"series.csv", network_series_csv(report)},
-                                  {"origin_destination.csv", origin_destination_csv(report)},
-                                  {"delays.csv", delays_csv(report)},
-                                  {"gridlocks.csv", gridlocks_csv(report)},
-                                  {"starvations.csv", starvations_csv(report.starvations(), report.lanes)},
-                                  {"rules.csv", rules_csv(report)}};
-    add_v2v(v2v_of(report.populations), tables);
     std::vector<Figure> figures{network_series_figure(report), delay_causes_figure(report)};
     if (network_kind(scenario.network).reports_approaches) {
-        tables.emplace_back("inflow.csv", inflow_csv(report));
-        tables.emplace_back("approaches.csv", approaches_csv(report));
-        tables.emplace_back("turns.csv", turns_csv(report));
         if (!scenario.network.streets.intersections.empty()) figures.push_back(street_map(scenario));
         figures.push_back(inflow_figure(report));
         figures.push_back(backlog_figure(report));
     }
-    if (scenario.measure.time_space_s > 0.0) {
-        tables.emplace_back("time_space.csv", street_time_space_csv(report));
-        figures.push_back(time_space_figure(report));
-    }
-    write_tables(options, scenario, std::move(tables), std::move(hashes), folder);
+    if (scenario.measure.time_space_s > 0.0) figures.push_back(time_space_figure(report));
+    write_tables(options, scenario, result_tables(report), state_hashes(report.populations), folder);
     fmt::print("{}", run_files.finish());
     if (!options.no_figures) draw_figures(figures, folder);
     const auto hint = [&](const std::string& purpose, const std::vector<std::string>& settings) {

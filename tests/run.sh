@@ -49,7 +49,7 @@ run_fast_tests() {
 }
 
 step "Packages: installing what is missing"
-sections=(quickstart tests)
+sections=(quickstart tests python)
 if [[ $all == yes ]]; then sections+=(sanitizers); fi
 bash apps/install_packages.sh "${sections[@]}"
 bash tests/tools/install_clang_tidy.sh

@@ -1,0 +1,78 @@
+#include "runs/run_report.h"
+
+#include <fmt/format.h>
+
+#include "runs/network/street_results.h"
+#include "runs/run_kind.h"
+#include "runs/single_light/single_light_csv.h"
+#include "runs/v2v_results.h"
+#include "scenario/kinds/network_kind.h"
+
+namespace stopline {
+
+namespace {
+
+// Adds the table of changes between the modes of V2V if a channel is active.
+void add_v2v(const std::vector<PopulationV2v>& populations, std::vector<NamedText>& tables) {
+    if (std::string text = v2v_modes_csv(populations); !text.empty())
+        tables.emplace_back("v2v_modes.csv", std::move(text));
+}
+
+}  // namespace
+
+std::vector<NamedText> result_tables(const SingleLightReport& report) {
+    std::vector<NamedText> tables{{"summary.csv", summary_csv(report)},
+                                  {"improvement.csv", improvement_csv(report)},
+                                  {"passages.csv", passages_csv(report)}};
+    add_v2v(v2v_of(report.runs), tables);
+    return tables;
+}
+
+std::vector<NamedText> result_tables(const IntersectionReport& report) {
+    std::vector<NamedText> tables{{"summary.csv", intersection_csv(report)},
+                                  {"headways.csv", headways_csv(report)},
+                                  {"starvations.csv", starvations_csv(report.starvations(), report.lanes)}};
+    add_v2v(v2v_of(report.populations), tables);
+    return tables;
+}
+
+std::vector<NamedText> result_tables(const NetworkReport& report) {
+    std::vector<NamedText> tables{{"summary.csv", network_csv(report)},
+                                  {"series.csv", network_series_csv(report)},
+                                  {"origin_destination.csv", origin_destination_csv(report)},
+                                  {"delays.csv", delays_csv(report)},
+                                  {"gridlocks.csv", gridlocks_csv(report)},
+                                  {"starvations.csv", starvations_csv(report.starvations(), report.lanes)},
+                                  {"rules.csv", rules_csv(report)}};
+    add_v2v(v2v_of(report.populations), tables);
+    if (network_kind(report.scenario.network).reports_approaches) {
+        tables.emplace_back("inflow.csv", inflow_csv(report));
+        tables.emplace_back("approaches.csv", approaches_csv(report));
+        tables.emplace_back("turns.csv", turns_csv(report));
+    }
+    if (report.scenario.measure.time_space_s > 0.0)
+        tables.emplace_back("time_space.csv", street_time_space_csv(report));
+    return tables;
+}
+
+std::string state_hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
+
+RunReport run_report(const Scenario& scenario, int threads, const std::function<bool(double)>& on_progress) {
+    const std::string_view kind = run_kind(scenario).name;
+    if (kind == kRunAsSingleLight) {
+        SingleLightOptions options;
+        options.threads = threads;
+        options.on_progress = on_progress;
+        const SingleLightReport report = run_single_light(scenario, options);
+        return {result_tables(report), state_hashes(report.runs), report.no_violations()};
+    }
+    if (kind == kRunAsIntersection) {
+        const IntersectionReport report = run_intersections(scenario, {threads, 0.0, on_progress});
+        return {result_tables(report), state_hashes(report.populations),
+                report.no_violations() && report.no_starvation()};
+    }
+    const NetworkReport report = run_networks(scenario, {threads, on_progress});
+    return {result_tables(report), state_hashes(report.populations), report.no_violations() && report.no_starvation()};
+}
+
+}  // namespace stopline
