@@ -30,10 +30,22 @@ double hcm_veh_h(double opposing_veh_h, double critical_gap_s, double follow_up_
 
 constexpr int kOpposingLanes = 3;
 
+// The drivers. `critical_gap_s` is the setting of the model: the time to the next opposing vehicle at the decision to
+// go. The critical gap of the manual is longer, because it is the time from one opposing vehicle to the next.
+struct Drivers {
+    const char* policy;
+    double critical_gap_s;
+};
+constexpr Drivers kDefault{"CTG-Ref", 5.0};
+// With this policy of the paper, vehicles follow each other on the left turn in about the follow-up time of the manual,
+// 2.5 s. With this gap, the shortest headway between opposing vehicles in which one vehicle turns is about the critical
+// gap of the manual, 4.5 s.
+constexpr Drivers kOfManual{"CTG-HBS", 2.05};
+
 // The scenario has Poisson arrivals on three opposing lanes. On a single lane vehicles could not arrive closer together
 // than they can drive, so headways would not be exponential. Left-turning vehicles from the west always queue: they
 // wait for the first green, and more arrive than can turn.
-Model left_turn_model(double opposing_veh_h, double to_s, std::uint64_t seed) {
+Model left_turn_model(const Drivers& drivers, double opposing_veh_h, double to_s, std::uint64_t seed) {
     const auto per_run = [&](double veh_h) { return std::to_string(std::lround(veh_h * to_s / 3600.0)); };
     const std::string end = "0," + std::to_string(std::lround(to_s)) + ",";
     const std::string left = per_run(1900.0);
@@ -41,9 +53,12 @@ Model left_turn_model(double opposing_veh_h, double to_s, std::uint64_t seed) {
     const TrafficFile file("begin,end,approach,vehicles,left,straight,right\n" + end + "west," + left + "," + left +
                            ",0,0\n" + end + "east," + opposing + ",0," + opposing + ",0\n");
     Scenario scenario = file.scenario(
-        "{fidelity: meso, network: {kind: intersection, intersection: {lanes: [{movements: left}, {movements: straight}, "
-        "{movements: straight}, {movements: straight}], radius: 25 m, approach_length: 300 m}}, signal: {first_green: 150 "
-        "s, green: 7000 s}, populations: [CTG-Ref], demand: {kind: counts, counts: traffic.csv, arrivals: poisson}}");
+        std::string(
+            "{fidelity: meso, network: {kind: intersection, intersection: {lanes: [{movements: left}, {movements: straight}, "
+            "{movements: straight}, {movements: straight}], radius: 25 m, approach_length: 300 m}}, signal: {first_green: 150 "
+            "s, green: 7000 s}, populations: [") +
+        drivers.policy + "], demand: {kind: counts, counts: traffic.csv, arrivals: poisson}}");
+    scenario.driver.give_way.critical_gap_s = drivers.critical_gap_s;
     scenario.seed = seed;
     return build_model(scenario, 0);
 }
@@ -72,15 +87,15 @@ double flow_veh_h(const Model& model, double to_s) {
 
 // Returns the flow without opposing vehicles: that of the queue from the fifth vehicle on. Later vehicles arrive after
 // the queue has left, because fewer vehicles enter than can turn.
-double unopposed_veh_h() {
-    const std::vector<double> times_s = left_turns_s(left_turn_model(0.0, 300.0, 1), 300.0);
+double unopposed_veh_h(const Drivers& drivers) {
+    const std::vector<double> times_s = left_turns_s(left_turn_model(drivers, 0.0, 300.0, 1), 300.0);
     return 3600.0 * 25.0 / (times_s[29] - times_s[4]);
 }
 
 // Returns the flow with evenly spaced opposing vehicles on one of the lanes.
-double flow_between_veh_h(double headway_s, int opposing_lane) {
+double flow_between_veh_h(const Drivers& drivers, double headway_s, int opposing_lane) {
     constexpr double kTo_s = 1500.0;
-    Model model = left_turn_model(60.0, kTo_s, 1);
+    Model model = left_turn_model(drivers, 60.0, kTo_s, 1);
     int lane = 0;
     for (DemandPlan::Inlet& inlet : model.demand.inlets) {
         if (inlet.arrivals_s.empty()) continue;
@@ -99,12 +114,12 @@ double flow_between_veh_h(double headway_s, int opposing_lane) {
 
 // Returns the shortest headway of evenly spaced opposing vehicles at which `vehicles` left-turning vehicles pass
 // between two of them.
-double shortest_headway_s(int vehicles, int opposing_lane) {
+double shortest_headway_s(const Drivers& drivers, int vehicles, int opposing_lane) {
     double closed_s = 2.0 * vehicles;
     double open_s = 8.0 + 4.0 * vehicles;
     while (open_s - closed_s > 0.05) {
         const double middle_s = 0.5 * (closed_s + open_s);
-        const bool pass = flow_between_veh_h(middle_s, opposing_lane) > (vehicles - 0.5) * 3600.0 / middle_s;
+        const bool pass = flow_between_veh_h(drivers, middle_s, opposing_lane) > (vehicles - 0.5) * 3600.0 / middle_s;
         (pass ? open_s : closed_s) = middle_s;
     }
     return open_s;
@@ -131,7 +146,7 @@ struct GapAcceptance {
 
 // Measures the shortest headways, and fits critical gap and follow-up time to them: headway n is critical_s + (n - 1)
 // follow_up_s (the method of Siegloch, 1973).
-GapAcceptance measured_gap_acceptance() {
+GapAcceptance measured_gap_acceptance(const Drivers& drivers) {
     GapAcceptance gap;
     double sum_n = 0.0;
     double sum_s = 0.0;
@@ -140,7 +155,7 @@ GapAcceptance measured_gap_acceptance() {
     for (std::size_t k = 0; k < kVehicles; ++k) {
         const auto n = static_cast<double>(k);
         for (int lane = 0; lane < kOpposingLanes; ++lane) {
-            gap.shortest_s[k] += shortest_headway_s(static_cast<int>(k) + 1, lane) / kOpposingLanes;
+            gap.shortest_s[k] += shortest_headway_s(drivers, static_cast<int>(k) + 1, lane) / kOpposingLanes;
         }
         sum_n += n;
         sum_s += gap.shortest_s[k];
@@ -157,11 +172,11 @@ struct MeasuredFlow {
     double error_veh_h = 0.0;  // standard error
 };
 
-MeasuredFlow mean_flow(double opposing_veh_h, double to_s, int seeds) {
+MeasuredFlow mean_flow(const Drivers& drivers, double opposing_veh_h, double to_s, int seeds) {
     double sum = 0.0;
     double squares = 0.0;
     for (int seed = 1; seed <= seeds; ++seed) {
-        const Model model = left_turn_model(opposing_veh_h, to_s, static_cast<std::uint64_t>(seed));
+        const Model model = left_turn_model(drivers, opposing_veh_h, to_s, static_cast<std::uint64_t>(seed));
         const double flow = flow_veh_h(model, to_s);
         sum += flow;
         squares += flow * flow;
@@ -177,16 +192,16 @@ MeasuredFlow mean_flow(double opposing_veh_h, double to_s, int seeds) {
 void compare(const std::vector<double>& opposing_veh_h, double to_s, int seeds) {
     constexpr double kMaxForFit_veh_h = 600.0;
     constexpr double kTolerance = 0.1;
-    const GapAcceptance gap = measured_gap_acceptance();
+    const GapAcceptance gap = measured_gap_acceptance(kDefault);
     std::printf(
         "shortest headways for 1, 2, 3 vehicles: %.2f, %.2f, %.2f s; critical gap %.2f s, follow-up time %.2f s\n",
         gap.shortest_s[0], gap.shortest_s[1], gap.shortest_s[2], gap.critical_s, gap.follow_up_s);
-    const double unopposed = unopposed_veh_h();
+    const double unopposed = unopposed_veh_h(kDefault);
     std::printf("opposing    0 veh/h: measured %4.0f veh/h, formula %4.0f, with 2.5 s 1440\n", unopposed,
                 3600.0 / gap.follow_up_s);
     EXPECT_NEAR(unopposed, 3600.0 / gap.follow_up_s, kTolerance * unopposed);
     for (const double opposing : opposing_veh_h) {
-        const MeasuredFlow flow = mean_flow(opposing, to_s, seeds);
+        const MeasuredFlow flow = mean_flow(kDefault, opposing, to_s, seeds);
         const double mean = flow.mean_veh_h;
         const double expected = gap.capacity_veh_h(opposing);
         const double fitted = hcm_veh_h(opposing, gap.critical_s, gap.follow_up_s);
@@ -204,6 +219,33 @@ void compare(const std::vector<double>& opposing_veh_h, double to_s, int seeds) 
 }
 
 TEST(PermissiveLeft, HasTheCapacityOfRandomGaps) { compare({200.0, 600.0}, 2100.0, 6); }
+
+// Compares drivers of the manual with its curve for its own critical gap and follow-up time.
+void compare_with_manual(const std::vector<double>& opposing_veh_h, double to_s, int seeds) {
+    constexpr double kCriticalGap_s = 4.5;
+    constexpr double kFollowUp_s = 2.5;
+    constexpr double kTolerance = 0.1;
+    EXPECT_NEAR(unopposed_veh_h(kOfManual), 3600.0 / kFollowUp_s, kTolerance * 3600.0 / kFollowUp_s);
+    double shortest_s = 0.0;
+    for (int lane = 0; lane < kOpposingLanes; ++lane) shortest_s += shortest_headway_s(kOfManual, 1, lane);
+    shortest_s /= kOpposingLanes;
+    std::printf("drivers of the manual: unopposed %.0f veh/h, shortest headway for one vehicle %.2f s\n",
+                unopposed_veh_h(kOfManual), shortest_s);
+    EXPECT_NEAR(shortest_s, kCriticalGap_s, kTolerance * kCriticalGap_s);
+    for (const double opposing : opposing_veh_h) {
+        const double mean = mean_flow(kOfManual, opposing, to_s, seeds).mean_veh_h;
+        const double manual = hcm_veh_h(opposing, kCriticalGap_s, kFollowUp_s);
+        std::printf("opposing %4.0f veh/h: measured %4.0f veh/h, manual %4.0f (%+.1f %%)\n", opposing, mean, manual,
+                    100.0 * (mean / manual - 1.0));
+        EXPECT_NEAR(mean, manual, kTolerance * manual) << "opposing flow " << opposing;
+    }
+}
+
+TEST(PermissiveLeft, HasTheCapacityOfTheManual) { compare_with_manual({200.0, 600.0}, 2100.0, 6); }
+
+TEST(SlowPermissiveLeft, HasTheCapacityOfTheManual) {
+    compare_with_manual({200.0, 400.0, 600.0, 800.0, 1000.0, 1200.0}, 3900.0, 20);
+}
 
 TEST(SlowPermissiveLeft, HasTheCapacityOfRandomGaps) {
     compare({200.0, 400.0, 600.0, 800.0, 1000.0, 1200.0}, 3900.0, 40);
