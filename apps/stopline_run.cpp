@@ -22,6 +22,7 @@
 #include "common/progress_bar.h"
 #include "common/results.h"
 #include "common/single_light_text.h"
+#include "figures/driving_figures.h"
 #include "figures/intersection_figures.h"
 #include "figures/network_figures.h"
 #include "figures/single_light_figures.h"
@@ -30,6 +31,7 @@
 #include "figures/time_space_figure.h"
 #include "record/streamed_file.h"
 #include "run/run_files.h"
+#include "runs/driving/energy_csv.h"
 #include "runs/network/street_results.h"
 #include "runs/provenance.h"
 #include "runs/run_kind.h"
@@ -146,6 +148,13 @@ void write_tables(const RunCliOptions& options, const Scenario& scenario, std::v
     }
 }
 
+// Returns the figures, with those of energy, comfort and safety that the scenario asks for.
+std::vector<Figure> with_driving(std::vector<Figure> figures, const Scenario& scenario,
+                                 const std::vector<PopulationDriving>& populations) {
+    for (Figure& figure : driving_figures(scenario, populations)) figures.push_back(std::move(figure));
+    return figures;
+}
+
 void write_results(const RunCliOptions& options, const SingleLightReport& result, double interval_s,
                    const std::filesystem::path& folder) {
     std::vector<NamedText> files = result_tables(result);
@@ -188,7 +197,9 @@ ExitCode run_as_intersection(const RunCliOptions& options, const Scenario& scena
                scenario.hash, scenario.seed, intersection_text(report));
     write_results(options, report, folder);
     fmt::print("{}", run_files.finish());
-    if (!options.no_figures) draw_figures(intersection_figures(report), folder);
+    if (!options.no_figures) {
+        draw_figures(with_driving(intersection_figures(report), scenario, driving_of(report.populations)), folder);
+    }
     fmt::print("\nNext:\n{}", settings_hint(options.file, options.common, "other greens and turns",
                                             {"signal.green=10 s", "demand.left=30 %"}));
     fmt::print("{}", runnable("  all combinations: stopline-sweep scenarios/sweeps/intersection.yaml\n"
@@ -215,6 +226,7 @@ ExitCode run_as_network(const RunCliOptions& options, const Scenario& scenario, 
     if (scenario.measure.time_space_s > 0.0) figures.push_back(time_space_figure(report));
     write_tables(options, scenario, result_tables(report), state_hashes(report.populations), folder);
     fmt::print("{}", run_files.finish());
+    figures = with_driving(std::move(figures), scenario, driving_of(report.populations));
     if (!options.no_figures) draw_figures(figures, folder);
     const auto hint = [&](const std::string& purpose, const std::vector<std::string>& settings) {
         return settings_hint(options.file, options.common, purpose, settings);
@@ -248,7 +260,10 @@ ExitCode run_as_single_light(const RunCliOptions& options, const Scenario& scena
     print_report(result, options.common);
     write_results(options, result, interval_s, folder);
     fmt::print("{}", run_files.finish());
-    if (!options.no_figures) draw_figures(single_light_figures(result, load_targets()), folder);
+    if (!options.no_figures) {
+        draw_figures(with_driving(single_light_figures(result, load_targets()), scenario, driving_of(result.runs)),
+                     folder);
+    }
     const bool is_meso = result.scenario.is_meso();
     const char* const trajectories =
         options.trajectories ? "" : "  positions of all vehicles over time: add --trajectories\n";

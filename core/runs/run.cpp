@@ -4,8 +4,10 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "base/containers/index.h"
+#include "runs/driving/driving_meters.h"
 #include "scenario/build_model.h"
 #include "sim/insertion/insert_vehicles.h"
 #include "sim/perception/look_ahead.h"
@@ -107,6 +109,7 @@ RunResult run_population(const Scenario& scenario, std::size_t population, const
     const std::int64_t green_tick = to_ticks(scenario.signal.first_green_s, scenario.tick_s());
     const std::int64_t sample_ticks =
         std::max<std::int64_t>(1, to_ticks(options.trajectory_interval_s, scenario.tick_s()));
+    DrivingMeters driving(scenario, population, model);
     constexpr std::int64_t kProgressSteps = 1000;
     bool has_started = false;  // the first green has begun
     const auto begin = std::chrono::steady_clock::now();
@@ -126,12 +129,15 @@ RunResult run_population(const Scenario& scenario, std::size_t population, const
             result.complete = options.on_progress(static_cast<double>(tick) / static_cast<double>(end_tick));
             if (!result.complete) break;
         }
+        driving.observe(simulation.state());
         options.observation.call(population, simulation);
         simulation.step();
     }
     if (result.complete) options.observation.call(population, simulation);
     result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     finish(simulation, result);
+    driving.observe(simulation.state());
+    result.driving = driving.finish(simulation.state(), std::nullopt);
     return result;
 }
 

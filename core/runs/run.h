@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "runs/driving/driving_results.h"
 #include "runs/observation.h"
 #include "runs/v2v_results.h"
 #include "scenario/scenario.h"
@@ -54,6 +55,7 @@ struct RunResult {
     std::vector<double> queue_gaps_m;  // net gaps in the queue of the first lane at the start of green
     Violations violations;
     V2vResult v2v;
+    DrivingResults driving;
     DepartureDelays departure;  // departure delays of all vehicles that arrived
     std::int64_t backlog = 0;   // vehicles that found no room to enter until the end of the run
     std::int64_t vehicles_entered = 0;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "runs/driving/energy_csv.h"
 #include "runs/network/street_results.h"
 #include "runs/run_kind.h"
 #include "runs/single_light/single_light_csv.h"
@@ -18,6 +19,11 @@ void add_v2v(const std::vector<PopulationV2v>& populations, std::vector<NamedTex
         tables.emplace_back("v2v_modes.csv", std::move(text));
 }
 
+// Adds the tables of energy, comfort and safety that the scenario asks for.
+void add_driving(const std::vector<PopulationDriving>& populations, std::vector<NamedText>& tables) {
+    if (std::string text = energy_csv(populations); !text.empty()) tables.emplace_back("energy.csv", std::move(text));
+}
+
 }  // namespace
 
 std::vector<NamedText> result_tables(const SingleLightReport& report) {
@@ -25,6 +31,7 @@ std::vector<NamedText> result_tables(const SingleLightReport& report) {
                                   {"improvement.csv", improvement_csv(report)},
                                   {"passages.csv", passages_csv(report)}};
     add_v2v(v2v_of(report.runs), tables);
+    add_driving(driving_of(report.runs), tables);
     return tables;
 }
 
@@ -33,6 +40,7 @@ std::vector<NamedText> result_tables(const IntersectionReport& report) {
                                   {"headways.csv", headways_csv(report)},
                                   {"starvations.csv", starvations_csv(report.starvations(), report.lanes)}};
     add_v2v(v2v_of(report.populations), tables);
+    add_driving(driving_of(report.populations), tables);
     return tables;
 }
 
@@ -45,6 +53,7 @@ std::vector<NamedText> result_tables(const NetworkReport& report) {
                                   {"starvations.csv", starvations_csv(report.starvations(), report.lanes)},
                                   {"rules.csv", rules_csv(report)}};
     add_v2v(v2v_of(report.populations), tables);
+    add_driving(driving_of(report.populations), tables);
     if (network_kind(report.scenario.network).reports_approaches) {
         tables.emplace_back("inflow.csv", inflow_csv(report));
         tables.emplace_back("approaches.csv", approaches_csv(report));

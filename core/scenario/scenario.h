@@ -29,7 +29,9 @@ struct MeasureSettings {
     // For all networks with intersections: a movement starves if the first vehicle of its queue has been stopped for
     // this time and for two cycles of its signal, although no vehicle ahead blocks its way. 0: never.
     double starvation_s = 300.0;
-    std::string departure_delay = "off";  // off | on: report the times from arrival to entry
+    std::string departure_delay = "off";   // off | on: report the times from arrival to entry
+    std::string energy = "off";            // off | on: measure fuel, CO2 and electric energy
+    std::string surrogate_safety = "off";  // off | on: measure comfort and surrogate safety
     // For networks of several intersections only:
     double area_margin_m = 20.0;           // distance from the outer intersections to the boundary of the measured area
     double interval_s = 60.0;              // interval of the time series

@@ -2,18 +2,14 @@
 // do not change after loading. The step function reads the `PowertrainTables` made from them (powertrain_tables.h).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "vehicle/energy_settings.h"
+#include "vehicle/sampled_curve.h"
+
 namespace stopline {
-
-// Samples of y over x. The values of x must rise strictly, and x and y must have the same length.
-struct SampledCurve {
-    std::vector<double> x;
-    std::vector<double> y;
-
-    bool operator==(const SampledCurve&) const = default;
-};
 
 struct PowertrainSettings {
     std::string name;
@@ -59,6 +55,9 @@ struct PowertrainSettings {
     std::vector<double> lag_gear_factor;   // [gear]
     double brake_lag_s = 0.2;
     double brake_friction = 0.8;  // tyre-road friction coefficient (no unit) that limits braking and traction
+
+    // Empty: there are no data for the energy use of the vehicle, and scenarios that measure it are refused.
+    std::optional<EnergySettings> energy = {};
 
     bool operator==(const PowertrainSettings&) const = default;
 };

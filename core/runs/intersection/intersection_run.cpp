@@ -6,6 +6,7 @@
 
 #include "base/containers/index.h"
 #include "base/speed_thresholds.h"
+#include "runs/driving/driving_meters.h"
 #include "scenario/build_model.h"
 #include "scenario/fleets.h"
 #include "sim/insertion/insert_vehicles.h"
@@ -225,6 +226,7 @@ IntersectionResult run_intersection(const Scenario& scenario, std::size_t popula
     result.window = measured_window(scenario);
     result.complete = true;
     QueueSampler sampler(model, result.window);
+    DrivingMeters driving(scenario, population, model);
     const std::int64_t end_tick = to_ticks(result.window.to_s, model.step_s);
     const std::int64_t snapshot_tick =
         to_ticks(result.window.from_s + second_green_middle_s(scenario.signal), model.step_s);
@@ -235,12 +237,15 @@ IntersectionResult run_intersection(const Scenario& scenario, std::size_t popula
         }
         if (simulation.state().tick == snapshot_tick) take_snapshot(simulation, result);
         sampler.sample(simulation.state());
+        driving.observe(simulation.state());
         observation.call(population, simulation);
         simulation.step();
     }
     const State& state = simulation.state();
     if (result.complete) observation.call(population, simulation);
     sampler.finish(result);
+    driving.observe(state);
+    result.driving = driving.finish(state, result.window);
     const double mean_length_m = mean_vehicle_m(scenario, scenario.populations.at(population));
     result.occupied = result.vehicles_present * mean_length_m / road_m(scenario, model);
     count_turns(model, state, result);

@@ -8,6 +8,7 @@
 
 #include "measure/discharge.h"
 #include "measure/zones.h"
+#include "runs/driving/driving_results.h"
 #include "runs/observation.h"
 #include "runs/v2v_results.h"
 #include "scenario/scenario.h"
@@ -45,6 +46,7 @@ struct IntersectionResult {
     std::vector<Light> snapshot_lights;  // [signal group] at the time of the snapshot
     Violations violations;
     V2vResult v2v;
+    DrivingResults driving;
     DepartureDelays departure;  // departure delays of all vehicles that arrived
     std::int64_t backlog = 0;   // vehicles that found no room to enter until the end of the run
     std::int64_t entered = 0;

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/nan.h"
+#include "runs/driving/driving_results.h"
 #include "runs/metrics/metric.h"
 #include "runs/v2v_results.h"
 #include "sim/state/events.h"
@@ -27,6 +28,7 @@ struct RunCounts {
     const V2vResult& v2v;
     const DepartureDelays& delays;
     std::int64_t backlog;  // vehicles that have arrived but not entered at the end of the run
+    const DrivingResults& driving;
 };
 
 // Returns the shares of the time in the modes of V2V (v2v/fallback.h). They are in the tables of sweeps.

@@ -18,8 +18,8 @@ struct MeasuredNetwork {
 
     const std::string& population() const { return result.population; }
     RunCounts counts() const {
-        return {result.entered,    result.exited, result.violations, result.updates,
-                result.state_hash, result.v2v,    result.departure,  result.backlog};
+        return {result.entered, result.exited,    result.violations, result.updates, result.state_hash,
+                result.v2v,     result.departure, result.backlog,    result.driving};
     }
     std::size_t starvations() const { return result.delays.starvations.size(); }
     double longest_in_junction_s() const { return result.longest_in_junction_s; }

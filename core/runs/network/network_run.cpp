@@ -8,6 +8,7 @@
 
 #include "base/containers/index.h"
 #include "measure/steady_state.h"
+#include "runs/driving/driving_meters.h"
 #include "scenario/build_model.h"
 #include "scenario/kinds/network_kind.h"
 #include "scenario/make_network.h"
@@ -310,6 +311,7 @@ NetworkResult run_network(const Scenario& scenario, std::size_t population,
     IntervalSampler sampler(scenario, model);
     StreetTracer tracer(scenario, model);
     CongestionSampler congestion(model, scenario.measure.interval_s);
+    DrivingMeters driving(scenario, population, model);
     const std::int64_t end_tick = to_ticks(scenario.duration_s, model.step_s);
     while (simulation.state().tick < end_tick) {
         if (on_step && !on_step(simulation)) {
@@ -319,6 +321,7 @@ NetworkResult run_network(const Scenario& scenario, std::size_t population,
         sampler.sample(simulation.state());
         tracer.sample(simulation.state());
         congestion.sample(simulation.state());
+        driving.observe(simulation.state());
         observation.call(population, simulation);
         simulation.step();
     }
@@ -326,6 +329,8 @@ NetworkResult run_network(const Scenario& scenario, std::size_t population,
     sampler.sample(state);
     if (result.complete) observation.call(population, simulation);
     measure(scenario, model, state, sampler, result);
+    driving.observe(state);
+    result.driving = driving.finish(state, result.measured.window);
     result.delays = state.congestion.delays;
     result.delays.refused_stop_s = simulation.model().time_s(result.delays.refusal_ticks);
     result.delays.advised_s = simulation.model().time_s(result.delays.advised_ticks);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "measure/area.h"
+#include "runs/driving/driving_results.h"
 #include "runs/network/congestion.h"
 #include "runs/network/time_space.h"
 #include "runs/observation.h"
@@ -57,6 +58,7 @@ struct NetworkResult {
     GapCounts gap_counts;  // outcomes of cooperative gap opening
     Violations violations;
     V2vResult v2v;
+    DrivingResults driving;
     DepartureDelays departure;                         // departure delays of all vehicles that arrived
     std::vector<DepartureDelays> approach_departures;  // [approach] the same for streets
     double longest_in_junction_s = 0.0;

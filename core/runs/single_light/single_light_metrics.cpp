@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/units.h"
+#include "runs/driving/energy_metrics.h"
 #include "runs/metrics/metric_text.h"
 
 namespace stopline {
@@ -235,7 +236,8 @@ const MetricList<MeasuredLight>& single_light_metrics() {
          count_metrics<MeasuredLight>({"vehicles_entered", "vehicles_exited", "overlaps", "red_entries",
                                        "forced_red_entries", "lost_vehicles", "state_hash"}),
          departure_metrics<MeasuredLight>(),
-         {backlog_metric<MeasuredLight>()}});
+         {backlog_metric<MeasuredLight>()},
+         energy_metrics<MeasuredLight>()});
     return kMetrics;
 }
 

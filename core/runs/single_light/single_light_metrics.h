@@ -20,7 +20,7 @@ struct MeasuredLight {
     const std::string& population() const { return summary.name; }
     RunCounts counts() const {
         return {run.vehicles_entered, run.vehicles_exited, run.violations, run.updates, run.state_hash, run.v2v,
-                run.departure,        run.backlog};
+                run.departure,        run.backlog,         run.driving};
     }
 };
 

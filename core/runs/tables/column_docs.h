@@ -42,6 +42,7 @@ std::string table_group(const NetworkSettings& network);
 std::vector<TableDoc> network_table_docs();
 std::vector<TableDoc> intersection_table_docs();
 std::vector<TableDoc> single_light_table_docs();
+std::vector<TableDoc> driving_table_docs();
 std::vector<TableDoc> sweep_table_docs();
 std::vector<TableDoc> string_table_docs();
 std::vector<TableDoc> program_table_docs();  // see program_columns.cpp

@@ -25,6 +25,7 @@ const Table& meso_table();          // MesoSettings: the root of data/meso/*.yam
 const Table& gap_policy_table();    // GapPolicySettings
 const Table& population_table();    // PopulationSettings
 const Table& measure_table();       // MeasureSettings
+const Table& energy_table();        // EnergySettings
 
 // Returns the names of all combinations of movements that an approach lane may allow, such as "straight+left".
 const std::vector<std::string>& lane_movements();

@@ -105,6 +105,19 @@ void check_string_stability(const Scenario& scenario, Checker& check) {
     check.error("measure.string_stability", "is for a single light only (network.kind: approach)");
 }
 
+// Checks that all vehicles have data for their energy use.
+void check_energy(const Scenario& scenario, Checker& check) {
+    if (scenario.measure.energy == "off") return;
+    std::set<std::string> names;
+    for (const PopulationSettings::Component* component : all_components(scenario)) {
+        const PowertrainSettings& vehicle = vehicle_of(scenario, *component);
+        if (vehicle.energy || !names.insert(vehicle.name).second) continue;
+        check.error("measure.energy", "vehicle '" + vehicle.name +
+                                          "' has no section energy: there are no data for its energy use; add the "
+                                          "section to its file, or remove measure.energy");
+    }
+}
+
 void check_controller(const Scenario& scenario, Checker& check) {
     const int groups = network_kind(scenario.network).signal_groups;
     const SignalController& controller = find_signal_controller(scenario.signal.controller);
@@ -129,6 +142,7 @@ void check_scenario(const Scenario& scenario, Checker& check) {
     check_measured_area(scenario, check);
     check_time_space(scenario, check);
     check_string_stability(scenario, check);
+    check_energy(scenario, check);
 }
 
 }  // namespace
@@ -165,6 +179,11 @@ const Table& measure_table() {
             choice<&S::departure_delay>(
                 "departure_delay", {"off", "on"},
                 "report the departure delays: the times from the arrival of vehicles to their entry into the network"),
+            choice<&S::energy>("energy", {"off", "on"},
+                               "report fuel, CO2 and electric energy; the mesoscale mode estimates them"),
+            choice<&S::surrogate_safety>(
+                "surrogate_safety", {"off", "on"},
+                "report comfort and surrogate safety: jerk, hard braking, time to collision, braking, smallest gaps"),
             number<&S::area_margin_m>("area_margin", "m", {0, 10'000},
                                       "grids and streets: distance from the outer intersections to the boundary of the "
                                       "measured area, on their approaches and exit lanes")

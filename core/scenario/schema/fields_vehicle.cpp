@@ -147,6 +147,8 @@ const Table& vehicle_table() {
             number<&Powertrain::brake_friction>("brake_friction", "", {0.05, 2},
                                                 "tyre-road friction coefficient, limits braking and traction")
                 .required(),
+            optional_section<&Powertrain::energy>("energy", energy_table,
+                                                  "energy use; `measure.energy` needs it, it changes no movement"),
         },
         check_vehicle);
     return table;

@@ -32,6 +32,11 @@ constexpr std::array kDimensionNames{
     DimensionName{Dimension::rate_squared, "squared rate"},
     DimensionName{Dimension::time_per_length, "time per length"},
     DimensionName{Dimension::flow, "flow of vehicles"},
+    DimensionName{Dimension::power, "power"},
+    DimensionName{Dimension::voltage, "voltage"},
+    DimensionName{Dimension::resistance, "electric resistance"},
+    DimensionName{Dimension::density, "density"},
+    DimensionName{Dimension::fuel_rate, "fuel rate"},
 };
 
 std::string_view trimmed(std::string_view text) {
@@ -94,7 +99,8 @@ std::string with_unit(const std::string& number, const Unit& in) {
 }  // namespace
 
 const std::vector<Unit>& units() {
-    // The first unit of each dimension is the SI unit, or rpm for engine speeds. exact_text() relies on this order.
+    // The first unit of each dimension is the SI unit, rpm for engine speeds, or g/h for fuel rates. exact_text() relies
+    // on this order.
     static const std::vector<Unit> all{
         {"", Dimension::number},
         {"%", Dimension::number, 1.0, 100.0},
@@ -130,6 +136,14 @@ const std::vector<Unit>& units() {
         {"s/m", Dimension::time_per_length},
         {"veh/s", Dimension::flow},
         {"veh/h", Dimension::flow, 1.0, 3600.0},
+        {"W", Dimension::power},
+        {"kW", Dimension::power, 1000.0},
+        {"V", Dimension::voltage},
+        {"ohm", Dimension::resistance},
+        {"kg/m3", Dimension::density},
+        {"g/l", Dimension::density},
+        {"g/h", Dimension::fuel_rate},
+        {"kg/h", Dimension::fuel_rate, 1000.0},
     };
     return all;
 }

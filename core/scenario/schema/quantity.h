@@ -2,7 +2,7 @@
 //
 // A quantity that has a dimension must have a unit; none is assumed. A unit of the wrong dimension is an error. A
 // number without dimension has no unit or the unit %, as in 0.3 or 30 %. All values are converted to SI units, except
-// engine speeds, which stay in rpm.
+// engine speeds, which stay in rpm, and fuel rates, which stay in g/h.
 #pragma once
 
 #include <string>
@@ -26,6 +26,11 @@ enum class Dimension {
     rate_squared,     // 1/s2
     time_per_length,  // s/m
     flow,             // vehicles/s
+    power,
+    voltage,
+    resistance,  // electric
+    density,
+    fuel_rate,  // g/h
 };
 
 struct Unit {

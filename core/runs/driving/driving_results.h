@@ -1,0 +1,12 @@
+// What the meters of a run have measured (driving_meters.h).
+#pragma once
+
+#include "runs/driving/energy_results.h"
+
+namespace stopline {
+
+struct DrivingResults {
+    EnergyResult energy;  // empty without measure.energy
+};
+
+}  // namespace stopline

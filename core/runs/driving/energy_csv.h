@@ -1,0 +1,28 @@
+// Tables of energy (measure.energy).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runs/driving/driving_results.h"
+
+namespace stopline {
+
+struct PopulationDriving {
+    std::string population;
+    const DrivingResults& driving;
+};
+
+// Returns the parts of a report that the tables of this folder need. `Result` has the members `population` and
+// `driving`.
+template <class Result>
+std::vector<PopulationDriving> driving_of(const std::vector<Result>& results) {
+    std::vector<PopulationDriving> all;
+    for (const Result& result : results) all.push_back({result.population, result.driving});
+    return all;
+}
+
+// Returns energy.csv as CSV text: one row for each vehicle. Empty without measure.energy.
+std::string energy_csv(const std::vector<PopulationDriving>& populations);
+
+}  // namespace stopline
