@@ -59,14 +59,16 @@ void add_panels(const Scenario& scenario, const std::vector<PopulationDriving>& 
                                    file, k, k, style_of(scenario, populations[k].population).colour);
     }
     figure.body += fmt::format(
-        "\nset key outside right top\nset xtics norotate autofreq\nset xrange [0:*]\nset xlabel 'time [min]'\nset "
+        "\nset key outside right top\nset xtics norotate center autofreq\nset autoscale x\nset autoscale y\nset xlabel 'time [min]'\nset "
         "ylabel '{}'\nplot ",
         kind.series);
+    const char* separator = "";
     for (std::size_t k = 0; k < populations.size(); ++k) {
+        if (!has_vehicles(populations[k], kind)) continue;
         const LineStyle style = style_of(scenario, populations[k].population);
-        figure.body +=
-            fmt::format("{}'{}_{}.dat' using 1:2 with lines lw 2 lc rgb '{}' dt {} title {}", k == 0 ? "" : ", ", file,
-                        k, style.colour, style.dash, gnuplot_text(populations[k].population));
+        figure.body += fmt::format("{}'{}_{}.dat' using 1:2 with lines lw 2 lc rgb '{}' dt {} title {}", separator,
+                                   file, k, style.colour, style.dash, gnuplot_text(populations[k].population));
+        separator = ", ";
     }
     figure.body += "\n";
 }

@@ -56,13 +56,47 @@ StepWork work_of(const PowertrainTables& t, const Resistances& resistance, doubl
     return work;
 }
 
-// Returns the gear that the mesoscale mode assumes.
-std::size_t estimated_gear(const PowertrainTables& t, double speed_mps, double acceleration_mps2) {
-    if (acceleration_mps2 <= 0.0) return static_cast<std::size_t>(cruising_gear(t, speed_mps));
-    const auto last = static_cast<std::size_t>(t.gears) - 1;
-    std::size_t gear = 0;
-    while (gear < last && speed_mps * t.rpm_per_mps[gear] > t.shift_up_part_rpm) ++gear;
-    return gear;
+// Returns the wheel force that an acceleration needs in a gear.
+double wanted_N(const PowertrainTables& t, std::size_t gear, double speed_mps, double acceleration_mps2,
+                double resistance_N) {
+    const double closing = clutch_closing(t, gear, speed_mps * t.rpm_per_mps[gear]);
+    return inertia_kg(t, gear, closing) * acceleration_mps2 + resistance_N;
+}
+
+// Returns the torque that this force needs, over the full-load torque in the gear.
+double torque_share(const PowertrainTables& t, std::size_t gear, double speed_mps, double wheel_N) {
+    const double rpm = engine_rpm(t, gear, speed_mps * t.rpm_per_mps[gear]);
+    const double torque_Nm = wheel_N / (t.rpm_per_mps[gear] * kRadpsPerRpm * t.efficiency);
+    return torque_Nm / std::max(interpolate_on_grid(t.full_load_Nm, rpm * t.torque_nodes_per_rpm), 1.0);
+}
+
+// Changes the gear as the gearbox of full dynamics does (change_gear() in powertrain_step.h), for an acceleration that
+// the vehicle has realised.
+void change_estimated_gear(const PowertrainTables& t, double acceleration_mps2, double resistance_N, double dt,
+                           PowertrainReading& state) {
+    const auto gear = static_cast<std::size_t>(state.gear);
+    const double speed_mps = state.speed_mps;
+    const double locked_rpm = speed_mps * t.rpm_per_mps[gear];
+    const double wheel_N = wanted_N(t, gear, speed_mps, acceleration_mps2, resistance_N);
+    const double share = torque_share(t, gear, speed_mps, wheel_N);
+    const double load = std::clamp(2.5 * share - 1.25, 0.0, 1.0);
+    const double up_rpm = t.shift_up_part_rpm + load * (t.shift_up_full_rpm - t.shift_up_part_rpm);
+    const bool may_shift = state.gear_time_s + 0.5 * dt >= t.minimum_gear_time_s;
+    const double drag_N = drag_Nm(t, engine_rpm(t, gear, locked_rpm)) * t.rpm_per_mps[gear] * kRadpsPerRpm;
+    const bool brakes = wheel_N < drag_N / t.efficiency;
+    int change = 0;
+    if (!brakes && may_shift && gear + 1 < static_cast<std::size_t>(t.gears)) {
+        const double next_N = wanted_N(t, gear + 1, speed_mps, acceleration_mps2, resistance_N);
+        const bool next_suffices = torque_share(t, gear + 1, speed_mps, next_N) <= 0.95;
+        if ((locked_rpm > up_rpm && next_suffices) || locked_rpm > t.shift_up_full_rpm) change = 1;
+    }
+    if (change == 0 && gear > 0) {
+        const bool kick_down =
+            may_shift && share > 1.5 && speed_mps * t.rpm_per_mps[gear - 1] < 0.8 * t.shift_up_full_rpm;
+        if (kick_down || (locked_rpm < t.shift_down_rpm && (may_shift || brakes))) change = -1;
+    }
+    state.gear += change;
+    state.gear_time_s = change != 0 && !brakes ? 0.0 : state.gear_time_s + dt;
 }
 
 // Returns the power that the battery supplies to give `terminal_W` at its terminals; below 0 while it is charged. The
@@ -136,25 +170,34 @@ FinishedStep finished_step(const PowertrainTables& t, const PowertrainReading& b
     return step;
 }
 
-FinishedStep estimated_step(const PowertrainTables& t, double before_mps, double after_mps, double sine, double dt) {
+PowertrainReading estimated_start(const PowertrainTables& tables, double speed_mps) {
+    constexpr double kLongSince_s = 1000.0;
+    return {speed_mps, 0.0, 0.0, kLongSince_s, cruising_gear(tables, speed_mps)};
+}
+
+FinishedStep estimated_step(const PowertrainTables& t, double after_mps, double sine, double dt,
+                            PowertrainReading& state) {
     FinishedStep step;
+    const double before_mps = state.speed_mps;
     step.engine.is_at_rest = before_mps <= 0.0 && after_mps <= 0.0;
-    if (step.engine.is_at_rest) return step;
     const double speed_mps = 0.5 * (before_mps + after_mps);
     const double acceleration_mps2 = (after_mps - before_mps) / dt;
-    const std::size_t gear = estimated_gear(t, speed_mps, acceleration_mps2);
+    const Resistances resistance = resistances(t, speed_mps, sine);
+    const auto gear = static_cast<std::size_t>(state.gear);
+    change_estimated_gear(t, acceleration_mps2, resistance.sum_N(), dt, state);
+    state.speed_mps = after_mps;
+    if (after_mps <= 0.0) state.gear = 0;
+    if (step.engine.is_at_rest) return step;
     const double locked_rpm = speed_mps * t.rpm_per_mps[gear];
     const double rpm = engine_rpm(t, gear, locked_rpm);
     const double closing = clutch_closing(t, gear, locked_rpm);
-    const Resistances resistance = resistances(t, speed_mps, sine);
-    const double inertia = inertia_kg(t, gear, closing);
-    const double wheel_N = inertia * acceleration_mps2 + resistance.sum_N();
+    const double wheel_N = wanted_N(t, gear, speed_mps, acceleration_mps2, resistance.sum_N());
     const double gain = t.rpm_per_mps[gear] * kRadpsPerRpm;
-    const double drag_N = closing * drag_Nm(t, rpm) * gain / t.efficiency;
-    const double drive_N = std::max(wheel_N, drag_N);
+    const double drive_N = std::max(wheel_N, closing * drag_Nm(t, rpm) * gain / t.efficiency);
     const double torque_Nm = drive_N / gain * (drive_N > 0.0 ? 1.0 / t.efficiency : t.efficiency);
     step.engine = {rpm, torque_Nm, drag_Nm(t, rpm), closing <= 0.0, false};
-    step.work = work_of(t, resistance, drive_N, drive_N - wheel_N, inertia, acceleration_mps2, speed_mps * dt);
+    step.work = work_of(t, resistance, drive_N, drive_N - wheel_N, inertia_kg(t, gear, closing), acceleration_mps2,
+                        speed_mps * dt);
     return step;
 }
 

@@ -93,14 +93,17 @@ void EnergyMeter::observe(const State& state, int lane, std::size_t slot) {
         track.sums.policy = v.policy[slot];
         track.sums.has_battery = settings_[at(v.policy[slot])].source == "battery";
     }
-    // A teleported vehicle is not seen for some steps.
-    if (track.last_tick >= 0 && track.last_tick == tick_ - 1) add_step(track, now);
+    // A vehicle that is new, or was teleported, begins a new sequence of steps.
+    if (track.last_tick >= 0 && track.last_tick == tick_ - 1) {
+        add_step(track, now);
+    } else {
+        track.reading = model_.meso ? estimated_start(model_.vehicle_of(v.policy[slot]), now.speed_mps) : now;
+    }
     if (now.speed_mps < kStoppedSpeed_mps && track.may_stop) {
         ++track.sums.stops;
         track.may_stop = false;
     }
     if (now.speed_mps > kQueuedSpeed_mps) track.may_stop = true;
-    track.reading = now;
     track.sine = static_cast<double>(state.plan.lane(lane).sine);
     track.last_tick = tick_;
 }
@@ -110,9 +113,13 @@ void EnergyMeter::add_step(Track& track, const PowertrainReading& now) {
     const PowertrainTables& vehicle = model_.vehicle_of(sums.policy);
     const EnergySettings& settings = settings_[at(sums.policy)];
     const double dt = model_.step_s;
-    const FinishedStep step = model_.meso
-                                  ? estimated_step(vehicle, track.reading.speed_mps, now.speed_mps, track.sine, dt)
-                                  : finished_step(vehicle, track.reading, now, track.sine, dt);
+    FinishedStep step;
+    if (model_.meso) {
+        step = estimated_step(vehicle, now.speed_mps, track.sine, dt, track.reading);
+    } else {
+        step = finished_step(vehicle, track.reading, now, track.sine, dt);
+        track.reading = now;
+    }
     const EnergyUse use = energy_use(settings, vehicle, step.engine, dt);
     sums.use += use;
     sums.work += step.work;
