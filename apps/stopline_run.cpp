@@ -31,7 +31,7 @@
 #include "figures/time_space_figure.h"
 #include "record/streamed_file.h"
 #include "run/run_files.h"
-#include "runs/driving/energy_csv.h"
+#include "runs/driving/driving_csv.h"
 #include "runs/network/street_results.h"
 #include "runs/provenance.h"
 #include "runs/run_kind.h"

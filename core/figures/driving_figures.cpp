@@ -90,11 +90,50 @@ Figure energy_figure(const Scenario& scenario, const std::vector<PopulationDrivi
     return figure;
 }
 
+std::string distribution_text(const SafetyAxis& axis, const SafetyDistribution& distribution) {
+    std::string text = "# value share_per_unit\n";
+    if (distribution.count() == 0) return text + "NaN NaN\n";
+    for (std::size_t bin = 0; bin < distribution.samples().size(); ++bin) {
+        const double share =
+            static_cast<double>(distribution.samples()[bin]) / static_cast<double>(distribution.count());
+        if (share > 0.0) {
+            text += fmt::format("{:.3f} {:.6g}\n", axis.from + axis.width * (static_cast<double>(bin) + 0.5),
+                                100.0 * share);
+        }
+    }
+    return text;
+}
+
+Figure safety_figure(const Scenario& scenario, const std::vector<PopulationDriving>& populations) {
+    Figure figure;
+    figure.name = "safety";
+    figure.width_px = 1250;
+    figure.height_px = 760;
+    figure.body = "set multiplot layout 2,3\nset logscale y\nset format y '%g'\nset key right top samplen 2\n";
+    for (std::size_t k = 0; k < kSafetyMeasures; ++k) {
+        const SafetyAxis& axis = kSafetyAxes[k];
+        figure.body += fmt::format("set xlabel '{}'\nset ylabel 'time in a bin of {:g} [%]'\n{}plot ", axis.label,
+                                   axis.width, k == 1 ? "unset key\n" : "");
+        for (std::size_t p = 0; p < populations.size(); ++p) {
+            const LineStyle style = style_of(scenario, populations[p].population);
+            const std::string file = fmt::format("safety_{}_{}.dat", axis.name, p);
+            figure.data.emplace_back(file, distribution_text(axis, populations[p].driving.safety.distributions[k]));
+            figure.body +=
+                fmt::format("{}'{}' using 1:2 with lines lw 2 lc rgb '{}' dt {} title {}", p == 0 ? "" : ", ", file,
+                            style.colour, style.dash, gnuplot_text(populations[p].population));
+        }
+        figure.body += "\n";
+    }
+    figure.body += "unset multiplot\n";
+    return figure;
+}
+
 }  // namespace
 
 std::vector<Figure> driving_figures(const Scenario& scenario, const std::vector<PopulationDriving>& populations) {
     std::vector<Figure> figures;
     if (scenario.measure.energy == "on") figures.push_back(energy_figure(scenario, populations));
+    if (scenario.measure.surrogate_safety == "on") figures.push_back(safety_figure(scenario, populations));
     return figures;
 }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "figures/gnuplot.h"
-#include "runs/driving/energy_csv.h"
+#include "runs/driving/driving_csv.h"
 #include "scenario/scenario.h"
 
 namespace stopline {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "runs/driving/energy_csv.h"
+#include "runs/driving/driving_csv.h"
 #include "runs/network/street_results.h"
 #include "runs/run_kind.h"
 #include "runs/single_light/single_light_csv.h"
@@ -22,6 +22,8 @@ void add_v2v(const std::vector<PopulationV2v>& populations, std::vector<NamedTex
 // Adds the tables of energy, comfort and safety that the scenario asks for.
 void add_driving(const std::vector<PopulationDriving>& populations, std::vector<NamedText>& tables) {
     if (std::string text = energy_csv(populations); !text.empty()) tables.emplace_back("energy.csv", std::move(text));
+    if (std::string text = safety_distributions_csv(populations); !text.empty())
+        tables.emplace_back("safety_distributions.csv", std::move(text));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "runs/driving/driving_results.h"
 #include "runs/driving/energy_meter.h"
+#include "runs/driving/safety_meter.h"
 
 namespace stopline {
 
@@ -19,13 +20,16 @@ public:
     // Call before each step, and once after the last step.
     void observe(const State& state) {
         if (energy_) energy_->observe(state);
+        if (safety_) safety_->observe(state);
     }
     // Returns the results. Means for vehicles cover those that leave the network in the window; without a window, all
     // vehicles.
     DrivingResults finish(const State& state, const std::optional<TimeWindow>& window) const;
 
 private:
-    std::unique_ptr<EnergyMeter> energy_;  // null: the scenario does not ask for it
+    // Null: the scenario does not ask for the meter.
+    std::unique_ptr<EnergyMeter> energy_;
+    std::unique_ptr<SafetyMeter> safety_;
 };
 
 }  // namespace stopline

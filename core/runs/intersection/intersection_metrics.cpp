@@ -2,6 +2,7 @@
 
 #include "base/nan.h"
 #include "runs/driving/energy_metrics.h"
+#include "runs/driving/safety_metrics.h"
 
 namespace stopline {
 
@@ -176,7 +177,8 @@ const MetricList<MeasuredIntersection>& intersection_metrics() {
              {"overlaps", "conflicts", "red_entries", "forced_red_entries", "lost_vehicles", "deadlocks"}),
          departure_metrics<MeasuredIntersection>(),
          {backlog_metric<MeasuredIntersection>()},
-         energy_metrics<MeasuredIntersection>()});
+         energy_metrics<MeasuredIntersection>(),
+         safety_metrics<MeasuredIntersection>()});
     return kMetrics;
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/units.h"
 #include "runs/driving/energy_metrics.h"
+#include "runs/driving/safety_metrics.h"
 #include "runs/metrics/metric_text.h"
 
 namespace stopline {
@@ -237,7 +238,8 @@ const MetricList<MeasuredLight>& single_light_metrics() {
                                        "forced_red_entries", "lost_vehicles", "state_hash"}),
          departure_metrics<MeasuredLight>(),
          {backlog_metric<MeasuredLight>()},
-         energy_metrics<MeasuredLight>()});
+         energy_metrics<MeasuredLight>(),
+         safety_metrics<MeasuredLight>()});
     return kMetrics;
 }
 

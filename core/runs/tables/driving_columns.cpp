@@ -33,11 +33,27 @@ TableDoc energy_table_doc(std::string_view name) {
          {"rolling_Wh", "Wh", "run", "work against rolling resistance"}}};
 }
 
+TableDoc safety_table_doc(std::string_view name) {
+    return {
+        name,
+        "Written with `measure.surrogate_safety: on`. One row for each bin of a distribution that has samples. The "
+        "first and the last\nbin of a distribution also hold all values beyond them.",
+        {kPopulationColumn,
+         {"measure", "", "",
+          "`jerk_mps3`, `acceleration_mps2`, `time_to_collision_s`, `brake_threat`, `net_gap_m` or `time_gap_s`; see "
+          "the columns of `summary.csv`"},
+         {"from", "", "", "lower end of the bin, in the unit of the measure"},
+         {"to", "", "", "upper end of the bin"},
+         {"time_s", "veh s", "run", "time that vehicles spend in the bin"},
+         {"share_percent", "%", "run", "share of this time in the time of all bins of the measure"}}};
+}
+
 }  // namespace
 
 std::vector<TableDoc> driving_table_docs() {
-    return {energy_table_doc("network/energy.csv"), energy_table_doc("intersection/energy.csv"),
-            energy_table_doc("single_light/energy.csv")};
+    return {energy_table_doc("network/energy.csv"),      safety_table_doc("network/safety_distributions.csv"),
+            energy_table_doc("intersection/energy.csv"), safety_table_doc("intersection/safety_distributions.csv"),
+            energy_table_doc("single_light/energy.csv"), safety_table_doc("single_light/safety_distributions.csv")};
 }
 
 }  // namespace stopline

@@ -1,4 +1,4 @@
-#include "runs/driving/energy_csv.h"
+#include "runs/driving/driving_csv.h"
 
 #include <algorithm>
 
@@ -24,6 +24,27 @@ std::string energy_csv(const std::vector<PopulationDriving>& populations) {
                      vehicle.has_battery ? "" : fixed(vehicle.co2_g, 3),
                      vehicle.has_battery ? Wh(vehicle.use.battery_J) : "", Wh(work.driven_J), Wh(work.overrun_J),
                      Wh(work.brake_J), Wh(work.air_J), Wh(work.rolling_J)});
+        }
+    }
+    return csv.text();
+}
+
+std::string safety_distributions_csv(const std::vector<PopulationDriving>& populations) {
+    const auto exists = [](const PopulationDriving& p) { return p.driving.safety.exists; };
+    if (std::none_of(populations.begin(), populations.end(), exists)) return {};
+    CsvWriter csv({"population", "measure", "from", "to", "time_s", "share_percent"});
+    for (const PopulationDriving& p : populations) {
+        for (std::size_t k = 0; k < kSafetyMeasures; ++k) {
+            const SafetyAxis& axis = kSafetyAxes[k];
+            const SafetyDistribution& distribution = p.driving.safety.distributions[k];
+            for (std::size_t bin = 0; bin < distribution.samples().size(); ++bin) {
+                const auto samples = static_cast<double>(distribution.samples()[bin]);
+                if (samples == 0.0) continue;
+                const double from = axis.from + axis.width * static_cast<double>(bin);
+                csv.row({p.population, std::string(axis.name), fixed(from, 2), fixed(from + axis.width, 2),
+                         fixed(samples * p.driving.safety.sample_s, 1),
+                         fixed(100.0 * samples / static_cast<double>(distribution.count()), 4)});
+            }
         }
     }
     return csv.text();

@@ -1,4 +1,4 @@
-// Tables of energy (measure.energy).
+// Tables of energy, comfort and surrogate safety.
 #pragma once
 
 #include <string>
@@ -24,5 +24,9 @@ std::vector<PopulationDriving> driving_of(const std::vector<Result>& results) {
 
 // Returns energy.csv as CSV text: one row for each vehicle. Empty without measure.energy.
 std::string energy_csv(const std::vector<PopulationDriving>& populations);
+
+// Returns safety_distributions.csv as CSV text: one row for each bin with samples. Empty without
+// measure.surrogate_safety.
+std::string safety_distributions_csv(const std::vector<PopulationDriving>& populations);
 
 }  // namespace stopline
