@@ -26,7 +26,7 @@ struct SafetyAxis {
     int bins;
 };
 inline constexpr std::array<SafetyAxis, kSafetyMeasures> kSafetyAxes{
-    SafetyAxis{"jerk_mps3", "jerk [m/s^3]", -20.0, 0.1, 400},
+    SafetyAxis{"jerk_mps3", "jerk [m/s^3]", -50.0, 0.2, 500},
     SafetyAxis{"acceleration_mps2", "acceleration [m/s^2]", -10.0, 0.1, 150},
     SafetyAxis{"time_to_collision_s", "time to collision [s]", 0.0, 0.25, 80},
     SafetyAxis{"brake_threat", "brake threat number", 0.0, 0.02, 100},

@@ -58,8 +58,11 @@ void add_blocks(const Table& table, const std::string& path, const void* setting
     for (const Field& field : table.fields) {
         const std::string inner_path = join_path(path, field.name);
         if (const auto* const section = std::get_if<SectionField>(&field.kind)) {
-            if (section->is_optional) continue;  // the same fields as in a section of the top level
-            add_blocks(section->table(), inner_path, section->read(settings), blocks);
+            // An optional section with a library has the same fields as a section of the top level.
+            if (section->is_optional && !section->library.empty()) continue;
+            const Table& inner = section->table();
+            const void* const values = section->read(settings);
+            add_blocks(inner, inner_path, values != nullptr ? values : inner.make_default().get(), blocks);
         } else if (const auto* const list = std::get_if<ListField>(&field.kind)) {
             const Table& inner = list->table();
             add_blocks(inner, inner_path + "[]", inner.make_default().get(), blocks);

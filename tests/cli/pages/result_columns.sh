@@ -45,25 +45,25 @@ run() {
 }
 
 brief=(--set 'populations=[CDG]' --set measure.baseline=CDG --trajectories --interval "10 s"
-    --set measure.departure_delay=on)
+    --set measure.departure_delay=on --set measure.energy=on --set measure.surrogate_safety=on)
 network=("${brief[@]}" --set "duration=130 s" --set "measure.window=60 s")
 run grid "$STOPLINE_SOURCE/scenarios/grid.yaml" "${network[@]}" --set network.grid.columns=2 --set network.grid.rows=2 \
     --set "measure.time_space=30 s"
-check_all grid network 8
+check_all grid network 10
 run streets "$STOPLINE_SOURCE/scenarios/berlin.yaml" "${network[@]}" --set driver.lane_change.gap_opening=cooperative \
     --set driver.speed_advice.mode=glosa
-check_all streets network 10
+check_all streets network 12
 cp "$STOPLINE_SOURCE"/tests/data/fast_random.*.xml "$work"
 cat >"$work/imported.yaml" <<'END'
 fidelity: meso
 network: {kind: sumo, net: ./fast_random.net.xml, routes: ./fast_random.rou.xml}
 END
 run imported "$work/imported.yaml" "${network[@]}"
-check_all imported network 7
+check_all imported network 9
 run intersection "$STOPLINE_SOURCE/scenarios/intersection.yaml" "${brief[@]}" --set measure.cycles=1
-check_all intersection intersection 3
+check_all intersection intersection 5
 run light "$STOPLINE_SOURCE/scenarios/first_steps.yaml" "${brief[@]}" --set measure.string_stability=on
-check_all light single_light 4
+check_all light single_light 6
 # Runs with a radio channel also write the changes of driving modes.
 radio=(--set fidelity=full --set 'driver.v2v={channel: bernoulli, loss: 50 %}' --set 'populations=[CDG]'
     --set measure.baseline=CDG)
@@ -92,7 +92,7 @@ END
     check "$work/sweeps/${name}_means.csv" sweep/NAME_means.csv population entering_kmh
 }
 network=(--set 'populations=[CDG]' --set measure.baseline=CDG --set "duration=130 s" --set "measure.window=60 s"
-    --set measure.departure_delay=on)
+    --set measure.departure_delay=on --set measure.energy=on --set measure.surrogate_safety=on)
 sweep of_grid "$STOPLINE_SOURCE/scenarios/grid.yaml" "${network[@]}" --set network.grid.columns=2 --set network.grid.rows=2
 sweep of_streets "$STOPLINE_SOURCE/scenarios/berlin.yaml" "${network[@]}" --set driver.lane_change.gap_opening=cooperative \
     --set driver.speed_advice.mode=glosa
