@@ -92,6 +92,8 @@ RUNS = [
     Run("single_light", "single_light"),
     Run("first_steps", "first_steps", {}),
     Run("first_steps_electric", "first_steps", {"vehicle": "electric_100kw"}),
+    Run("first_steps_measured", "first_steps", {"measure.energy": "on", "measure.surrogate_safety": "on"}),
+    Run("first_steps_measured_meso", "first_steps", {"measure.energy": "on", "measure.surrogate_safety": "on", **MESO}),
     Run("first_steps_own_laws", "first_steps", OWN_LAWS),
     Run("first_steps_own_laws_meso", "first_steps", {**OWN_LAWS, **MESO}),
     # A channel with bursts of losses, delays with jitter, and platoons with a leader. The state hash contains the
