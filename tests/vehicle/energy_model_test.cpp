@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <ostream>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -71,6 +72,7 @@ struct Reference {
     const char* emission_class;
     double start_g, cruise_g, idle_g, nedc_g;
 };
+void PrintTo(const Reference& reference, std::ostream* out) { *out << reference.vehicle; }
 constexpr Reference kReferences[]{
     {"petrol_eu4_72kw", "PHEMlight/PC_G_EU4", 19.952, 37.486, 12.989, 681.950},
     {"petrol_eu4_84kw", "PHEMlight5/PC_EU4_G", 22.073, 38.268, 14.262, 735.551},

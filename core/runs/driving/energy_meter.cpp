@@ -57,7 +57,13 @@ EnergyMeter::EnergyMeter(const Scenario& scenario, std::size_t population, const
     : model_(model),
       settings_(settings_by_policy(scenario, scenario.populations.at(population), model)),
       interval_ticks_(to_ticks(series_interval_s(scenario), model.step_s)) {
-    for (const GapPolicy& policy : model.policies) policy_names_.push_back(policy.settings.name);
+    EngineLoad at_rest;
+    at_rest.is_at_rest = true;
+    for (std::size_t policy = 0; policy < model.policies.size(); ++policy) {
+        policy_names_.push_back(model.policies[policy].settings.name);
+        const PowertrainTables& vehicle = model.vehicle_of(static_cast<int>(policy));
+        rest_use_.push_back(energy_use(settings_[policy], vehicle, at_rest, model.step_s));
+    }
 }
 
 void EnergyMeter::observe(const State& state) {
@@ -110,6 +116,7 @@ void EnergyMeter::observe(const State& state, int lane, std::size_t slot) {
 
 void EnergyMeter::add_step(Track& track, const PowertrainReading& now) {
     VehicleEnergy& sums = track.sums;
+    if (now.speed_mps <= 0.0 && track.reading.speed_mps <= 0.0) return add_step_at_rest(track, now);
     const PowertrainTables& vehicle = model_.vehicle_of(sums.policy);
     const EnergySettings& settings = settings_[at(sums.policy)];
     const double dt = model_.step_s;
@@ -126,6 +133,19 @@ void EnergyMeter::add_step(Track& track, const PowertrainReading& now) {
     if (now.speed_mps < kStoppedSpeed_mps) sums.idle_s += dt;
     fuel_g_.back() += use.fuel_g;
     battery_J_.back() += use.battery_J;
+}
+
+void EnergyMeter::add_step_at_rest(Track& track, const PowertrainReading& now) {
+    const EnergyUse& use = rest_use_[at(track.sums.policy)];
+    track.sums.use += use;
+    track.sums.idle_s += model_.step_s;
+    fuel_g_.back() += use.fuel_g;
+    battery_J_.back() += use.battery_J;
+    if (model_.meso) {
+        track.reading.gear_time_s += model_.step_s;
+    } else {
+        track.reading = now;
+    }
 }
 
 EnergyResult EnergyMeter::finish(const State& state, const std::optional<TimeWindow>& window) const {

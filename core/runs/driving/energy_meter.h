@@ -36,9 +36,11 @@ private:
 
     void observe(const State& state, int lane, std::size_t slot);
     void add_step(Track& track, const PowertrainReading& now);
+    void add_step_at_rest(Track& track, const PowertrainReading& now);
 
     const Model& model_;
     std::vector<EnergySettings> settings_;  // [policy]
+    std::vector<EnergyUse> rest_use_;       // [policy] energy use of a step at rest
     std::vector<std::string> policy_names_;
     std::vector<Track> tracks_;  // [id]
     StepWork work_;
