@@ -178,9 +178,24 @@ TEST(MetricValue, IsACell) {
 
 // Columns end with the unit of their entry, unless they are counts.
 const char* suffix_of(std::string_view unit) {
-    const std::map<std::string_view, const char*> suffixes{{"s", "_s"},         {"m", "_m"},     {"%", "_percent"},
-                                                           {"veh/h", "_veh_h"}, {"veh h", "_h"}, {"m/s", "_mps"},
-                                                           {"veh", ""},         {"", ""}};
+    const std::map<std::string_view, const char*> suffixes{{"s", "_s"},
+                                                           {"m", "_m"},
+                                                           {"%", "_percent"},
+                                                           {"veh/h", "_veh_h"},
+                                                           {"veh h", "_h"},
+                                                           {"m/s", "_mps"},
+                                                           {"m/s3", "_mps3"},
+                                                           {"1/(veh km)", "_per_veh_km"},
+                                                           {"g/veh", "_g_per_veh"},
+                                                           {"g/km", "_g_per_km"},
+                                                           {"g/stop", "_g_per_stop"},
+                                                           {"l/100 km", "_l_per_100km"},
+                                                           {"Wh/veh", "_Wh_per_veh"},
+                                                           {"Wh/km", "_Wh_per_km"},
+                                                           {"Wh/stop", "_Wh_per_stop"},
+                                                           {"s/veh", "_s_per_veh"},
+                                                           {"veh", ""},
+                                                           {"", ""}};
     const auto found = suffixes.find(unit);
     return found == suffixes.end() ? "_?" : found->second;
 }
