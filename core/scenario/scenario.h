@@ -30,6 +30,7 @@ struct MeasureSettings {
     // this time and for two cycles of its signal, although no vehicle ahead blocks its way. 0: never.
     double starvation_s = 300.0;
     std::string departure_delay = "off";  // off | on: report the times from arrival to entry
+    std::string hcm = "off";              // off | on: report the lanes by the Highway Capacity Manual
     // For networks of several intersections only:
     double area_margin_m = 20.0;           // distance from the outer intersections to the boundary of the measured area
     double interval_s = 60.0;              // interval of the time series

@@ -165,6 +165,10 @@ const Table& measure_table() {
             choice<&S::departure_delay>(
                 "departure_delay", {"off", "on"},
                 "report the departure delays: the times from the arrival of vehicles to their entry into the network"),
+            choice<&S::hcm>(
+                "hcm", {"off", "on"},
+                "intersections: report saturation flow, capacity, control delay, queues and level of service of each "
+                "lane by the Highway Capacity Manual, in hcm.csv"),
             number<&S::area_margin_m>("area_margin", "m", {0, 10'000},
                                       "grids and streets: distance from the outer intersections to the boundary of the "
                                       "measured area, on their approaches and exit lanes")

@@ -1,4 +1,4 @@
-#include "signal_timing/signal_equations.h"
+#include "measure/signal_equations.h"
 
 #include <algorithm>
 #include <array>
