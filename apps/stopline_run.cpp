@@ -22,6 +22,7 @@
 #include "common/progress_bar.h"
 #include "common/results.h"
 #include "common/single_light_text.h"
+#include "figures/hcm_figure.h"
 #include "figures/intersection_figures.h"
 #include "figures/network_figures.h"
 #include "figures/single_light_figures.h"
@@ -29,7 +30,9 @@
 #include "figures/street_map.h"
 #include "figures/time_space_figure.h"
 #include "record/streamed_file.h"
+#include "run/hcm_text.h"
 #include "run/run_files.h"
+#include "runs/hcm/hcm_sampler.h"
 #include "runs/network/street_results.h"
 #include "runs/provenance.h"
 #include "runs/run_kind.h"
@@ -155,6 +158,22 @@ void add_v2v(const std::vector<PopulationV2v>& populations, std::vector<NamedTex
         files.emplace_back("v2v_modes.csv", std::move(text));
 }
 
+// Prints the report by the Highway Capacity Manual and adds its tables if the scenario asks for it.
+template <class Result>
+void add_hcm(const Scenario& scenario, const std::vector<Result>& results, std::vector<NamedText>& files) {
+    if (!asks_for_hcm(scenario)) return;
+    const std::vector<PopulationHcm> hcm = hcm_of(results);
+    fmt::print("\n{}", hcm_text(hcm));
+    files.emplace_back("hcm.csv", hcm_csv(hcm));
+    files.emplace_back("hcm_headways.csv", hcm_headways_csv(hcm));
+}
+
+// Adds the figure of this report.
+template <class Result>
+void add_hcm_figure(const std::vector<Result>& results, std::vector<Figure>& figures) {
+    if (std::optional<Figure> figure = hcm_figure(hcm_of(results))) figures.push_back(*std::move(figure));
+}
+
 void write_results(const RunCliOptions& options, const SingleLightReport& result, double interval_s,
                    const std::filesystem::path& folder) {
     std::vector<NamedText> files{{"summary.csv", summary_csv(result)},
@@ -162,6 +181,7 @@ void write_results(const RunCliOptions& options, const SingleLightReport& result
                                  {"passages.csv", passages_csv(result)}};
     if (options.trajectories) files.emplace_back("trajectories.csv", trajectories_csv(result, interval_s));
     add_v2v(v2v_of(result.runs), files);
+    add_hcm(result.scenario, result.runs, files);
     StateHashes hashes;
     for (const RunResult& run : result.runs) {
         hashes.emplace_back(run.population, fmt::format("{:016x}", run.state_hash));
@@ -176,6 +196,7 @@ void write_results(const RunCliOptions& options, const IntersectionReport& repor
                                  {"starvations.csv", starvations_csv(report.starvations(), report.lanes)}};
     if (options.trajectories) files.emplace_back("trajectories.csv", intersection_trajectories_csv(report));
     add_v2v(v2v_of(report.populations), files);
+    add_hcm(report.scenario, report.populations, files);
     StateHashes hashes;
     for (const IntersectionResult& f : report.populations) {
         hashes.emplace_back(f.population, fmt::format("{:016x}", f.state_hash));
@@ -211,7 +232,9 @@ ExitCode run_as_intersection(const RunCliOptions& options, const Scenario& scena
                scenario.hash, scenario.seed, intersection_text(report));
     write_results(options, report, folder);
     fmt::print("{}", run_files.finish());
-    if (!options.no_figures) draw_figures(intersection_figures(report), folder);
+    std::vector<Figure> figures = intersection_figures(report);
+    add_hcm_figure(report.populations, figures);
+    if (!options.no_figures) draw_figures(figures, folder);
     fmt::print("\nNext:\n{}", settings_hint(options.file, options.common, "other greens and turns",
                                             {"signal.green=10 s", "demand.left=30 %"}));
     fmt::print("{}", runnable("  all combinations: stopline-sweep scenarios/sweeps/intersection.yaml\n"
@@ -241,7 +264,9 @@ ExitCode run_as_network(const RunCliOptions& options, const Scenario& scenario, 
                                   {"starvations.csv", starvations_csv(report.starvations(), report.lanes)},
                                   {"rules.csv", rules_csv(report)}};
     add_v2v(v2v_of(report.populations), tables);
+    add_hcm(scenario, report.populations, tables);
     std::vector<Figure> figures{network_series_figure(report), delay_causes_figure(report)};
+    add_hcm_figure(report.populations, figures);
     if (network_kind(scenario.network).reports_approaches) {
         tables.emplace_back("inflow.csv", inflow_csv(report));
         tables.emplace_back("approaches.csv", approaches_csv(report));
@@ -289,7 +314,11 @@ ExitCode run_as_single_light(const RunCliOptions& options, const Scenario& scena
     print_report(result, options.common);
     write_results(options, result, interval_s, folder);
     fmt::print("{}", run_files.finish());
-    if (!options.no_figures) draw_figures(single_light_figures(result, load_targets()), folder);
+    if (!options.no_figures) {
+        std::vector<Figure> figures = single_light_figures(result, load_targets());
+        add_hcm_figure(result.runs, figures);
+        draw_figures(figures, folder);
+    }
     const bool is_meso = result.scenario.is_meso();
     const char* const trajectories =
         options.trajectories ? "" : "  positions of all vehicles over time: add --trajectories\n";

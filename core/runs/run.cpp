@@ -4,8 +4,10 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "base/containers/index.h"
+#include "runs/hcm/hcm_sampler.h"
 #include "scenario/build_model.h"
 #include "sim/insertion/insert_vehicles.h"
 #include "sim/perception/look_ahead.h"
@@ -99,7 +101,10 @@ int RunResult::passed_within(double green_s) const {
 RunResult run_population(const Scenario& scenario, std::size_t population, const RunOptions& options) {
     Model model = build_model(scenario, population);
     options.observation.prepare(model);
+    HcmSampler::prepare(scenario, model);
     Simulation simulation(model);
+    std::optional<HcmSampler> hcm;
+    if (asks_for_hcm(scenario)) hcm.emplace(scenario, model);
     RunResult result;
     result.population = scenario.populations[population].name;
     result.green_start_s = scenario.signal.first_green_s;
@@ -126,12 +131,17 @@ RunResult run_population(const Scenario& scenario, std::size_t population, const
             result.complete = options.on_progress(static_cast<double>(tick) / static_cast<double>(end_tick));
             if (!result.complete) break;
         }
+        if (hcm) hcm->sample(simulation.state());
         options.observation.call(population, simulation);
         simulation.step();
     }
     if (result.complete) options.observation.call(population, simulation);
     result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     finish(simulation, result);
+    if (hcm) {
+        hcm->sample(simulation.state());
+        result.hcm = hcm->rows({0.0, simulation.time_s() + scenario.tick_s()});
+    }
     return result;
 }
 

@@ -1,6 +1,7 @@
 #include "runs/intersection/intersection_metrics.h"
 
 #include "base/nan.h"
+#include "runs/hcm/hcm_metrics.h"
 
 namespace stopline {
 
@@ -174,7 +175,8 @@ const MetricList<MeasuredIntersection>& intersection_metrics() {
          count_metrics<MeasuredIntersection>(
              {"overlaps", "conflicts", "red_entries", "forced_red_entries", "lost_vehicles", "deadlocks"}),
          departure_metrics<MeasuredIntersection>(),
-         {backlog_metric<MeasuredIntersection>()}});
+         {backlog_metric<MeasuredIntersection>()},
+         hcm_metrics<MeasuredIntersection>()});
     return kMetrics;
 }
 

@@ -5,6 +5,7 @@
 
 #include "base/nan.h"
 #include "base/units.h"
+#include "runs/hcm/hcm_metrics.h"
 #include "runs/network/gap_metrics.h"
 #include "runs/network/speed_advice_metrics.h"
 #include "scenario/kinds/network_kind.h"
@@ -424,7 +425,8 @@ const MetricList<MeasuredNetwork>& network_metrics() {
          speed_advice_metrics(), street_metrics(), stop_metrics(), trip_metrics(),
          count_metrics<MeasuredNetwork>(
              {"overlaps", "conflicts", "red_entries", "forced_red_entries", "lost_vehicles"}),
-         backlog_metrics(), departure_metrics<MeasuredNetwork>(), MetricList<MeasuredNetwork>{breakdown_metric()}});
+         backlog_metrics(), departure_metrics<MeasuredNetwork>(), MetricList<MeasuredNetwork>{breakdown_metric()},
+         hcm_metrics<MeasuredNetwork>()});
     return kMetrics;
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/containers/index.h"
 #include "measure/steady_state.h"
+#include "runs/hcm/hcm_sampler.h"
 #include "scenario/build_model.h"
 #include "scenario/kinds/network_kind.h"
 #include "scenario/make_network.h"
@@ -302,6 +303,7 @@ NetworkResult run_network(const Scenario& scenario, std::size_t population,
                           const Observation& observation) {
     Model model = network_model(scenario, population);
     observation.prepare(model);
+    HcmSampler::prepare(scenario, model);
     Simulation simulation(model, threads);
     simulation.share_from(model.meso ? kSharedFromMeso : kSharedFromFull);
     NetworkResult result;
@@ -310,6 +312,8 @@ NetworkResult run_network(const Scenario& scenario, std::size_t population,
     IntervalSampler sampler(scenario, model);
     StreetTracer tracer(scenario, model);
     CongestionSampler congestion(model, scenario.measure.interval_s);
+    std::optional<HcmSampler> hcm;
+    if (asks_for_hcm(scenario)) hcm.emplace(scenario, model);
     const std::int64_t end_tick = to_ticks(scenario.duration_s, model.step_s);
     while (simulation.state().tick < end_tick) {
         if (on_step && !on_step(simulation)) {
@@ -319,6 +323,7 @@ NetworkResult run_network(const Scenario& scenario, std::size_t population,
         sampler.sample(simulation.state());
         tracer.sample(simulation.state());
         congestion.sample(simulation.state());
+        if (hcm) hcm->sample(simulation.state());
         observation.call(population, simulation);
         simulation.step();
     }
@@ -326,6 +331,10 @@ NetworkResult run_network(const Scenario& scenario, std::size_t population,
     sampler.sample(state);
     if (result.complete) observation.call(population, simulation);
     measure(scenario, model, state, sampler, result);
+    if (hcm) {
+        hcm->sample(state);
+        result.hcm = hcm->rows(result.measured.window);
+    }
     result.delays = state.congestion.delays;
     result.delays.refused_stop_s = simulation.model().time_s(result.delays.refusal_ticks);
     result.delays.advised_s = simulation.model().time_s(result.delays.advised_ticks);
