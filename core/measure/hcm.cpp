@@ -40,24 +40,24 @@ LaneDischarge discharge_of(const LaneGraph& graph, const HcmRecord& record, cons
         .lanes[0];
 }
 
-// Returns the mean time from the end of green to the last passage of a queued vehicle, over the greens for which the
+// Measures the mean time from the end of green to the last passage of a queued vehicle, over the greens for which the
 // queue lasts. It is below 0 if the last vehicle passes before the end of green.
-double end_gain_s(std::span<const HcmCycle> cycles, const std::vector<HcmPassage>& passages) {
+void measure_end_gain(std::span<const HcmCycle> cycles, const std::vector<HcmPassage>& passages, HcmRow& row) {
+    // A queue whose last vehicle passes earlier than this before the end of green was held by something else, such as
+    // oncoming traffic.
+    constexpr double kLongestHeadway_s = 4.0;
     double sum_s = 0.0;
-    int used = 0;
+    auto passage = passages.begin();
     for (const HcmCycle& cycle : cycles) {
-        if (!cycle.is_used) continue;
-        const HcmPassage* last = nullptr;
-        for (const HcmPassage& passage : passages) {
-            if (passage.time_s >= cycle.green_from_s && passage.time_s < cycle.to_s && passage.has_queued) {
-                last = &passage;
-            }
+        double last_s = -1.0;
+        for (; passage != passages.end() && passage->time_s < cycle.to_s; ++passage) {
+            if (passage->time_s >= cycle.green_from_s && passage->has_queued) last_s = passage->time_s;
         }
-        if (last == nullptr) continue;
-        sum_s += last->time_s - cycle.green_to_s;
-        ++used;
+        if (!cycle.is_used || last_s < cycle.green_to_s - kLongestHeadway_s) continue;
+        sum_s += last_s - cycle.green_to_s;
+        ++row.used_greens;
     }
-    return used > 0 ? sum_s / used : kEndGain_s;
+    row.end_gain_s = row.used_greens > 0 ? sum_s / row.used_greens : 0.0;
 }
 
 void measure_queues(std::span<const HcmCycle> cycles, HcmRow& row) {
@@ -77,8 +77,7 @@ void measure_queues(std::span<const HcmCycle> cycles, HcmRow& row) {
     row.residual_share = static_cast<double>(residual) / row.cycles;
 }
 
-// Measures one lane without its capacity, which can depend on the other lanes. `before` is the cycle before the first
-// one; null: there is none.
+// Measures one lane without its capacity, which can depend on the other lanes.
 HcmRow measured_row(const LaneGraph& graph, const HcmRecord& record, std::span<const HcmCycle> cycles) {
     HcmRow row;
     row.name = graph.lanes[at(record.lane)].name;
@@ -90,7 +89,7 @@ HcmRow measured_row(const LaneGraph& graph, const HcmRecord& record, std::span<c
     row.cycle_s = whole.length_s() / row.cycles;
     measure_queues(cycles, row);
     row.discharge = discharge_of(graph, record, whole, row.cycle_s);
-    row.end_gain_s = end_gain_s(cycles, record.passages);
+    measure_end_gain(cycles, record.passages, row);
     int passed = 0;
     for (const HcmPassage& passage : record.passages) {
         if (!whole.contains(passage.time_s)) continue;
@@ -100,31 +99,45 @@ HcmRow measured_row(const LaneGraph& graph, const HcmRecord& record, std::span<c
     }
     row.control_delay_s = passed > 0 ? row.control_delay_s / passed : kNan;
     row.stops = passed > 0 ? row.stops / passed : kNan;
-    const HcmCycle* before = cycles.data() == record.cycles.data() ? nullptr : cycles.data() - 1;
-    const int growth = before == nullptr ? 0 : cycles.back().present_veh - before->present_veh;
-    row.initial_queue_veh = before == nullptr ? 0.0 : before->residual_veh;
+    const int growth = cycles.back().present_veh - cycles.front().present_before_veh;
+    row.initial_queue_veh = cycles.front().residual_before_veh;
     row.passed_veh_h = kSeconds * passed / whole.length_s();
     row.volume_veh_h = kSeconds * (passed + growth) / whole.length_s();
     return row;
 }
 
-// Sets saturation flow and lost time. Lanes without a saturated green get the means of the other lanes.
-void set_saturation_flows(std::vector<HcmRow>& rows) {
+// Sums over the greens of all lanes.
+struct GreenMeans {
     double headways_s = 0.0;
     double lost_s = 0.0;
-    int greens = 0;
-    for (const HcmRow& row : rows) {
+    int saturated = 0;
+    double gains_s = 0.0;
+    int used = 0;
+
+    void add(const HcmRow& row) {
         const int own = row.discharge.saturated_greens;
-        if (own == 0) continue;
-        headways_s += own * row.discharge.saturation_headway_s;
-        lost_s += own * row.discharge.startup_lost_time_s;
-        greens += own;
+        if (own > 0) {
+            headways_s += own * row.discharge.saturation_headway_s;
+            lost_s += own * row.discharge.startup_lost_time_s;
+            saturated += own;
+        }
+        gains_s += row.used_greens * row.end_gain_s;
+        used += row.used_greens;
     }
+};
+
+// Sets saturation flow, lost time and end gain. Lanes with fewer than kMinGreens greens get the means of all lanes.
+void set_saturation_flows(std::vector<HcmRow>& rows) {
+    GreenMeans all;
+    for (const HcmRow& row : rows) all.add(row);
     for (HcmRow& row : rows) {
-        const bool is_own = row.discharge.saturated_greens > 0;
-        const double headway_s = is_own ? row.discharge.saturation_headway_s : greens > 0 ? headways_s / greens : kNan;
-        row.saturation_flow_veh_h = kSeconds / headway_s;
-        row.startup_lost_time_s = is_own ? row.discharge.startup_lost_time_s : greens > 0 ? lost_s / greens : kNan;
+        const bool is_own = row.discharge.saturated_greens >= kMinGreens;
+        const double mean_headway_s = all.saturated > 0 ? all.headways_s / all.saturated : kNan;
+        const double mean_lost_s = all.saturated > 0 ? all.lost_s / all.saturated : kNan;
+        row.saturation_flow_veh_h = kSeconds / (is_own ? row.discharge.saturation_headway_s : mean_headway_s);
+        row.startup_lost_time_s = is_own ? row.discharge.startup_lost_time_s : mean_lost_s;
+        if (row.used_greens >= kMinGreens) continue;
+        row.end_gain_s = all.used >= kMinGreens ? all.gains_s / all.used : kEndGain_s;
     }
 }
 

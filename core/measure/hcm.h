@@ -35,11 +35,13 @@ struct HcmCycle {
     double to_s = 0.0;
     double green_from_s = 0.0;
     double green_to_s = 0.0;
-    int back_veh = 0;      // vehicles in the queue at the start of red, and vehicles that joined it later
-    double back_m = 0.0;   // greatest distance from the stop line to the rear of a queued vehicle
-    int residual_veh = 0;  // queued vehicles that have not passed at the end of the cycle
-    int present_veh = 0;   // vehicles before the stop line at the end of the cycle, with those that wait to enter
-    bool is_used = false;  // the queue lasted until the end of green
+    int back_veh = 0;             // vehicles in the queue at the start of red, and vehicles that joined it later
+    double back_m = 0.0;          // greatest distance from the stop line to the rear of a queued vehicle
+    int residual_veh = 0;         // queued vehicles that have not passed at the end of the cycle
+    int present_veh = 0;          // vehicles before the stop line at the end, with those that wait to enter
+    bool is_used = false;         // queued vehicles are left at the end of green
+    int residual_before_veh = 0;  // the same two numbers at the start of the cycle
+    int present_before_veh = 0;
 };
 
 // What a run records about a lane.
@@ -71,9 +73,10 @@ struct HcmRow {
     double cycle_s = 0.0;
     double green_s = 0.0;
     LaneDischarge discharge;
-    double saturation_flow_veh_h = 0.0;  // without a saturated green: mean of the other lanes
-    double startup_lost_time_s = 0.0;    // without a saturated green: mean of the other lanes
-    double end_gain_s = 0.0;             // if no queue lasts until the end of green: kEndGain_s
+    int used_greens = 0;                 // greens for which the queue lasts
+    double saturation_flow_veh_h = 0.0;  // fewer than kMinGreens saturated greens: mean of all lanes
+    double startup_lost_time_s = 0.0;    // the same
+    double end_gain_s = 0.0;             // fewer than kMinGreens used greens: mean of all lanes, or kEndGain_s
     double effective_green_s = 0.0;
     double capacity_veh_h = 0.0;
     double volume_veh_h = 0.0;  // vehicles that arrive
@@ -96,9 +99,13 @@ struct HcmRow {
     double formula_delay_s() const { return uniform_delay_s + incremental_delay_s + initial_queue_delay_s; }
 };
 
-// End gain for lanes whose queue never lasts until the end of green (HCM, 6th edition, chapter 19: extension of the
-// effective green, e).
+// End gain if too few queues last until the end of green (HCM, 6th edition, chapter 19: extension of the effective
+// green, e).
 inline constexpr double kEndGain_s = 2.0;
+
+// A lane with fewer saturated greens than this gets saturation flow and lost time as means of all lanes. The same holds
+// for the end gain and the greens for which the queue lasts.
+inline constexpr int kMinGreens = 5;
 
 // Returns the value below which `share` of the values lie, with linear interpolation between neighbours. NaN: no
 // values.

@@ -28,7 +28,7 @@ HcmRecord saturated_lane(int cycles) {
     for (int k = 0; k < cycles; ++k) {
         const double from_s = k * kCycle_s;
         const double green_s = from_s + 27.0;
-        record.cycles.push_back({from_s, from_s + kCycle_s, green_s, green_s + kGreen_s, 16, 120.0, 2, 2, true});
+        record.cycles.push_back({from_s, from_s + kCycle_s, green_s, green_s + kGreen_s, 16, 120.0, 2, 2, true, 2, 2});
         record.green_starts_s.push_back(green_s);
         double time_s = green_s;
         for (int n = 0; n < 14; ++n) {
@@ -73,7 +73,10 @@ TEST(Hcm, CountsWholeCyclesWithinTheWindowOnly) {
 
 TEST(Hcm, GrowingQueueIsOversaturatedAndHasLevelF) {
     HcmRecord record = saturated_lane(10);
-    for (int k = 0; k < 10; ++k) record.cycles[static_cast<std::size_t>(k)].present_veh = 2 * k;
+    for (int k = 0; k < 10; ++k) {
+        record.cycles[static_cast<std::size_t>(k)].present_before_veh = 2 * k;
+        record.cycles[static_cast<std::size_t>(k)].present_veh = 2 * (k + 1);
+    }
     const HcmRow row = rows_of({record}, {60.0, 600.0}).front();
     EXPECT_NEAR(row.volume_veh_h - row.passed_veh_h, 120.0, 1e-9);  // two vehicles more in each minute
     EXPECT_NEAR(row.saturation, 16.0 / 14.0, 1e-9);
@@ -101,12 +104,22 @@ TEST(Hcm, LanesWithoutSaturatedGreenUseTheOthers) {
     EXPECT_EQ(rows[1].discharge.saturated_greens, 0);
     EXPECT_NEAR(rows[1].saturation_flow_veh_h, 1800.0, 1e-9);
     EXPECT_NEAR(rows[1].startup_lost_time_s, kLost_s, 1e-9);
-    EXPECT_NEAR(rows[1].end_gain_s, kEndGain_s, 1e-9);
+    EXPECT_NEAR(rows[1].end_gain_s, 0.5, 1e-9);
     EXPECT_EQ(rows[2].scope, HcmRow::Scope::approach);
     EXPECT_EQ(rows[4].scope, HcmRow::Scope::intersection);
     EXPECT_NEAR(rows[4].control_delay_s, 14.0, 1e-9);  // equal flows
     EXPECT_NEAR(rows[4].passed_veh_h, rows[0].passed_veh_h + rows[1].passed_veh_h, 1e-9);
     EXPECT_NEAR(rows[4].stops, 0.5, 1e-9);
+}
+
+// A vehicle that waits for oncoming traffic until the end of green does not shorten the effective green.
+TEST(Hcm, QueuesThatSomethingElseHoldsGiveNoEndGain) {
+    HcmRecord record = saturated_lane(10);
+    for (HcmPassage& passage : record.passages) passage.time_s -= 5.0;
+    for (double& green_s : record.green_starts_s) green_s -= 5.0;
+    const HcmRow row = rows_of({record}).front();
+    EXPECT_EQ(row.used_greens, 0);
+    EXPECT_NEAR(row.end_gain_s, kEndGain_s, 1e-9);
 }
 
 TEST(Hcm, PercentileInterpolates) {

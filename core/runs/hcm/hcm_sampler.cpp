@@ -160,8 +160,11 @@ void HcmSampler::begin_cycle(const State& state, int record, double now_s) {
     open.cycle.present_veh = present_before_line(state, record);
     const bool has_green = open.cycle.green_to_s > open.cycle.green_from_s && open.cycle.green_from_s >= 0.0;
     if (open.has_begun && has_green) records_[at(record)].cycles.push_back(open.cycle);
+    const int present = open.cycle.present_veh;
     open = {true, {}};
     open.cycle.from_s = now_s;
+    open.cycle.residual_before_veh = residual;
+    open.cycle.present_before_veh = present;
     open.cycle.back_veh = residual;
 }
 

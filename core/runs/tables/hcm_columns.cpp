@@ -12,13 +12,13 @@ std::vector<ColumnDoc> hcm_columns() {
         {"cycle_s", "s", "window", "mean length of these cycles"},
         {"green_s", "s", "window", "mean green"},
         {"saturated_greens", "", "window",
-         "greens in which five or more vehicles of a queue pass. 0: the lane gets saturation flow and lost time as "
-         "means of the other lanes"},
+         "greens in which five or more vehicles of a queue pass. Below 5 greens, saturation flow and lost time are "
+         "means of all lanes"},
         {"saturation_flow_veh_h", "veh/h", "window", "flow at the mean headway from the fifth vehicle of a queue on"},
         {"startup_lost_time_s", "s", "window", "start-up lost time of the first four vehicles of a queue"},
         {"end_gain_s", "s", "window",
-         "mean time from the end of green to the last passage of a queue that lasts until the end of green; 2 s if "
-         "no queue lasts so long"},
+         "mean time from the end of green to the last passage of a queue that lasts until the end of green; below 5 such "
+         "greens the mean of all lanes, or 2 s if all lanes have fewer than 5"},
         {"effective_green_s", "s", "window", "green minus start-up lost time plus end gain"},
         {"capacity_veh_h", "veh/h", "window", "saturation flow times effective green over cycle"},
         {"volume_veh_h", "veh/h", "window",
