@@ -23,6 +23,7 @@
 #include "common/results.h"
 #include "common/single_light_text.h"
 #include "figures/driving_figures.h"
+#include "figures/hcm_figure.h"
 #include "figures/intersection_figures.h"
 #include "figures/network_figures.h"
 #include "figures/single_light_figures.h"
@@ -30,8 +31,10 @@
 #include "figures/street_map.h"
 #include "figures/time_space_figure.h"
 #include "record/streamed_file.h"
+#include "run/hcm_text.h"
 #include "run/run_files.h"
 #include "runs/driving/driving_csv.h"
+#include "runs/hcm/hcm_sampler.h"
 #include "runs/network/street_results.h"
 #include "runs/provenance.h"
 #include "runs/run_kind.h"
@@ -148,11 +151,19 @@ void write_tables(const RunCliOptions& options, const Scenario& scenario, std::v
     }
 }
 
-// Returns the figures, with those of energy, comfort and safety that the scenario asks for.
-std::vector<Figure> with_driving(std::vector<Figure> figures, const Scenario& scenario,
-                                 const std::vector<PopulationDriving>& populations) {
-    for (Figure& figure : driving_figures(scenario, populations)) figures.push_back(std::move(figure));
+// Returns the figures, with those of further measures that the scenario asks for.
+template <class Result>
+std::vector<Figure> with_measures(std::vector<Figure> figures, const Scenario& scenario,
+                                  const std::vector<Result>& results) {
+    for (Figure& figure : driving_figures(scenario, driving_of(results))) figures.push_back(std::move(figure));
+    if (std::optional<Figure> figure = hcm_figure(hcm_of(results))) figures.push_back(*std::move(figure));
     return figures;
+}
+
+// Prints the report by the Highway Capacity Manual if the scenario asks for it.
+template <class Result>
+void print_hcm(const Scenario& scenario, const std::vector<Result>& results) {
+    if (asks_for_hcm(scenario)) fmt::print("\n{}", hcm_text(hcm_of(results)));
 }
 
 void write_results(const RunCliOptions& options, const SingleLightReport& result, double interval_s,
@@ -195,11 +206,11 @@ ExitCode run_as_intersection(const RunCliOptions& options, const Scenario& scena
     }();
     fmt::print("{}\nscenario {} ({:016x}), seed {}\n\n{}", heading(scenario, options.common), scenario.name,
                scenario.hash, scenario.seed, intersection_text(report));
+    print_hcm(scenario, report.populations);
     write_results(options, report, folder);
     fmt::print("{}", run_files.finish());
-    if (!options.no_figures) {
-        draw_figures(with_driving(intersection_figures(report), scenario, driving_of(report.populations)), folder);
-    }
+    if (!options.no_figures)
+        draw_figures(with_measures(intersection_figures(report), scenario, report.populations), folder);
     fmt::print("\nNext:\n{}", settings_hint(options.file, options.common, "other greens and turns",
                                             {"signal.green=10 s", "demand.left=30 %"}));
     fmt::print("{}", runnable("  all combinations: stopline-sweep scenarios/sweeps/intersection.yaml\n"
@@ -217,6 +228,7 @@ ExitCode run_as_network(const RunCliOptions& options, const Scenario& scenario, 
     }();
     fmt::print("{}\nscenario {} ({:016x}), seed {}\n\n{}", heading(scenario, options.common), scenario.name,
                scenario.hash, scenario.seed, network_text(report));
+    print_hcm(scenario, report.populations);
     std::vector<Figure> figures{network_series_figure(report), delay_causes_figure(report)};
     if (network_kind(scenario.network).reports_approaches) {
         if (!scenario.network.streets.intersections.empty()) figures.push_back(street_map(scenario));
@@ -226,7 +238,7 @@ ExitCode run_as_network(const RunCliOptions& options, const Scenario& scenario, 
     if (scenario.measure.time_space_s > 0.0) figures.push_back(time_space_figure(report));
     write_tables(options, scenario, result_tables(report), state_hashes(report.populations), folder);
     fmt::print("{}", run_files.finish());
-    figures = with_driving(std::move(figures), scenario, driving_of(report.populations));
+    figures = with_measures(std::move(figures), scenario, report.populations);
     if (!options.no_figures) draw_figures(figures, folder);
     const auto hint = [&](const std::string& purpose, const std::vector<std::string>& settings) {
         return settings_hint(options.file, options.common, purpose, settings);
@@ -258,11 +270,11 @@ ExitCode run_as_single_light(const RunCliOptions& options, const Scenario& scena
         return run_single_light(scenario, run_options);
     }();
     print_report(result, options.common);
+    print_hcm(scenario, result.runs);
     write_results(options, result, interval_s, folder);
     fmt::print("{}", run_files.finish());
     if (!options.no_figures) {
-        draw_figures(with_driving(single_light_figures(result, load_targets()), scenario, driving_of(result.runs)),
-                     folder);
+        draw_figures(with_measures(single_light_figures(result, load_targets()), scenario, result.runs), folder);
     }
     const bool is_meso = result.scenario.is_meso();
     const char* const trajectories =

@@ -9,8 +9,8 @@
 #include "base/containers/index.h"
 #include "common/command_line.h"
 #include "common/text_table.h"
+#include "measure/signal_equations.h"
 #include "scenario/schema/quantity.h"
-#include "signal_timing/signal_equations.h"
 
 namespace stopline {
 

@@ -8,6 +8,7 @@
 
 #include "base/containers/index.h"
 #include "runs/driving/driving_meters.h"
+#include "runs/hcm/hcm_sampler.h"
 #include "scenario/build_model.h"
 #include "sim/insertion/insert_vehicles.h"
 #include "sim/perception/look_ahead.h"
@@ -101,7 +102,10 @@ int RunResult::passed_within(double green_s) const {
 RunResult run_population(const Scenario& scenario, std::size_t population, const RunOptions& options) {
     Model model = build_model(scenario, population);
     options.observation.prepare(model);
+    HcmSampler::prepare(scenario, model);
     Simulation simulation(model);
+    std::optional<HcmSampler> hcm;
+    if (asks_for_hcm(scenario)) hcm.emplace(scenario, model);
     RunResult result;
     result.population = scenario.populations[population].name;
     result.green_start_s = scenario.signal.first_green_s;
@@ -130,6 +134,7 @@ RunResult run_population(const Scenario& scenario, std::size_t population, const
             if (!result.complete) break;
         }
         driving.observe(simulation.state());
+        if (hcm) hcm->sample(simulation.state());
         options.observation.call(population, simulation);
         simulation.step();
     }
@@ -138,6 +143,10 @@ RunResult run_population(const Scenario& scenario, std::size_t population, const
     finish(simulation, result);
     driving.observe(simulation.state());
     result.driving = driving.finish(simulation.state(), std::nullopt);
+    if (hcm) {
+        hcm->sample(simulation.state());
+        result.hcm = hcm->rows({0.0, simulation.time_s() + scenario.tick_s()});
+    }
     return result;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "measure/hcm.h"
 #include "runs/driving/driving_results.h"
 #include "runs/observation.h"
 #include "runs/v2v_results.h"
@@ -52,6 +53,7 @@ struct RunResult {
     std::vector<Passage> passages;          // passages of vehicles from lane to lane
     std::vector<double> stop_line_times_s;  // times of passages over stop lines, counted from green_start_s, sorted
     std::vector<TrajectoryPoint> trajectory;
+    std::vector<HcmRow> hcm;           // empty unless measure.hcm is on
     std::vector<double> queue_gaps_m;  // net gaps in the queue of the first lane at the start of green
     Violations violations;
     V2vResult v2v;

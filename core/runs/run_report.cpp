@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "runs/driving/driving_csv.h"
+#include "runs/hcm/hcm_sampler.h"
+#include "runs/hcm/hcm_tables.h"
 #include "runs/network/street_results.h"
 #include "runs/run_kind.h"
 #include "runs/single_light/single_light_csv.h"
@@ -26,6 +28,14 @@ void add_driving(const std::vector<PopulationDriving>& populations, std::vector<
         tables.emplace_back("safety_distributions.csv", std::move(text));
 }
 
+// Adds the tables of the report by the Highway Capacity Manual if the scenario asks for it.
+template <class Result>
+void add_hcm(const Scenario& scenario, const std::vector<Result>& results, std::vector<NamedText>& tables) {
+    if (!asks_for_hcm(scenario)) return;
+    tables.emplace_back("hcm.csv", hcm_csv(hcm_of(results)));
+    tables.emplace_back("hcm_headways.csv", hcm_headways_csv(hcm_of(results)));
+}
+
 }  // namespace
 
 std::vector<NamedText> result_tables(const SingleLightReport& report) {
@@ -34,6 +44,7 @@ std::vector<NamedText> result_tables(const SingleLightReport& report) {
                                   {"passages.csv", passages_csv(report)}};
     add_v2v(v2v_of(report.runs), tables);
     add_driving(driving_of(report.runs), tables);
+    add_hcm(report.scenario, report.runs, tables);
     return tables;
 }
 
@@ -43,6 +54,7 @@ std::vector<NamedText> result_tables(const IntersectionReport& report) {
                                   {"starvations.csv", starvations_csv(report.starvations(), report.lanes)}};
     add_v2v(v2v_of(report.populations), tables);
     add_driving(driving_of(report.populations), tables);
+    add_hcm(report.scenario, report.populations, tables);
     return tables;
 }
 
@@ -56,6 +68,7 @@ std::vector<NamedText> result_tables(const NetworkReport& report) {
                                   {"rules.csv", rules_csv(report)}};
     add_v2v(v2v_of(report.populations), tables);
     add_driving(driving_of(report.populations), tables);
+    add_hcm(report.scenario, report.populations, tables);
     if (network_kind(report.scenario.network).reports_approaches) {
         tables.emplace_back("inflow.csv", inflow_csv(report));
         tables.emplace_back("approaches.csv", approaches_csv(report));

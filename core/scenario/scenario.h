@@ -32,6 +32,7 @@ struct MeasureSettings {
     std::string departure_delay = "off";   // off | on: report the times from arrival to entry
     std::string energy = "off";            // off | on: measure fuel, CO2 and electric energy
     std::string surrogate_safety = "off";  // off | on: measure comfort and surrogate safety
+    std::string hcm = "off";               // off | on: report the lanes by the Highway Capacity Manual
     // For networks of several intersections only:
     double area_margin_m = 20.0;           // distance from the outer intersections to the boundary of the measured area
     double interval_s = 60.0;              // interval of the time series

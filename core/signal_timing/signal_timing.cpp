@@ -10,11 +10,11 @@
 #include "base/containers/index.h"
 #include "base/input_error.h"
 #include "base/nan.h"
+#include "measure/signal_equations.h"
 #include "runs/parallel_runs.h"
 #include "scenario/build_model.h"
 #include "scenario/files/field_place.h"
 #include "scenario/kinds/network_kind.h"
-#include "signal_timing/signal_equations.h"
 
 namespace stopline {
 

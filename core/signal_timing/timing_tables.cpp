@@ -5,7 +5,7 @@
 
 #include "base/containers/index.h"
 #include "base/io/csv.h"
-#include "signal_timing/signal_equations.h"
+#include "measure/signal_equations.h"
 #include "signal_timing/signal_timing.h"
 
 namespace stopline {

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "base/input_error.h"
+#include "measure/signal_equations.h"
 #include "scenario/build_model.h"
-#include "signal_timing/signal_equations.h"
 #include "signal_timing/timing_scenario.h"
 
 namespace stopline {

@@ -3,6 +3,7 @@
 #include "base/nan.h"
 #include "runs/driving/energy_metrics.h"
 #include "runs/driving/safety_metrics.h"
+#include "runs/hcm/hcm_metrics.h"
 
 namespace stopline {
 
@@ -178,7 +179,8 @@ const MetricList<MeasuredIntersection>& intersection_metrics() {
          departure_metrics<MeasuredIntersection>(),
          {backlog_metric<MeasuredIntersection>()},
          energy_metrics<MeasuredIntersection>(),
-         safety_metrics<MeasuredIntersection>()});
+         safety_metrics<MeasuredIntersection>(),
+         hcm_metrics<MeasuredIntersection>()});
     return kMetrics;
 }
 

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 #include "base/containers/index.h"
 #include "base/speed_thresholds.h"
 #include "runs/driving/driving_meters.h"
+#include "runs/hcm/hcm_sampler.h"
 #include "scenario/build_model.h"
 #include "scenario/fleets.h"
 #include "sim/insertion/insert_vehicles.h"
@@ -218,6 +220,7 @@ IntersectionResult run_intersection(const Scenario& scenario, std::size_t popula
                                     const Observation& observation) {
     Model model = build_model(scenario, population);
     observation.prepare(model);
+    HcmSampler::prepare(scenario, model);
     // The simulation checks once a second for starving movements.
     model.rules.watch_ticks = std::max<std::int64_t>(to_ticks(1.0, model.step_s), 1);
     Simulation simulation(model);
@@ -227,6 +230,8 @@ IntersectionResult run_intersection(const Scenario& scenario, std::size_t popula
     result.complete = true;
     QueueSampler sampler(model, result.window);
     DrivingMeters driving(scenario, population, model);
+    std::optional<HcmSampler> hcm;
+    if (asks_for_hcm(scenario)) hcm.emplace(scenario, model);
     const std::int64_t end_tick = to_ticks(result.window.to_s, model.step_s);
     const std::int64_t snapshot_tick =
         to_ticks(result.window.from_s + second_green_middle_s(scenario.signal), model.step_s);
@@ -238,6 +243,7 @@ IntersectionResult run_intersection(const Scenario& scenario, std::size_t popula
         if (simulation.state().tick == snapshot_tick) take_snapshot(simulation, result);
         sampler.sample(simulation.state());
         driving.observe(simulation.state());
+        if (hcm) hcm->sample(simulation.state());
         observation.call(population, simulation);
         simulation.step();
     }
@@ -246,6 +252,10 @@ IntersectionResult run_intersection(const Scenario& scenario, std::size_t popula
     sampler.finish(result);
     driving.observe(state);
     result.driving = driving.finish(state, result.window);
+    if (hcm) {
+        hcm->sample(state);
+        result.hcm = hcm->rows(result.window);
+    }
     const double mean_length_m = mean_vehicle_m(scenario, scenario.populations.at(population));
     result.occupied = result.vehicles_present * mean_length_m / road_m(scenario, model);
     count_turns(model, state, result);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "measure/discharge.h"
+#include "measure/hcm.h"
 #include "measure/zones.h"
 #include "runs/driving/driving_results.h"
 #include "runs/observation.h"
@@ -30,6 +31,7 @@ struct IntersectionResult {
     std::vector<ZoneResult> zones;  // [zone] in the order of measure.zones
     std::vector<double> delay_s;    // [zone] travel time minus travel time at the speed limit
     Discharge discharge;
+    std::vector<HcmRow> hcm;        // empty unless measure.hcm is on
     double vehicles_present = 0.0;  // mean number of vehicles in the network over the window
     double occupied = 0.0;          // share of the lane length that vehicles occupy, 0 .. 1
     double queue_veh = 0.0;         // queued vehicles at the start of green, mean over lanes and greens

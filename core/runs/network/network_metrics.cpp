@@ -7,6 +7,7 @@
 #include "base/units.h"
 #include "runs/driving/energy_metrics.h"
 #include "runs/driving/safety_metrics.h"
+#include "runs/hcm/hcm_metrics.h"
 #include "runs/network/gap_metrics.h"
 #include "runs/network/speed_advice_metrics.h"
 #include "scenario/kinds/network_kind.h"
@@ -427,7 +428,7 @@ const MetricList<MeasuredNetwork>& network_metrics() {
          count_metrics<MeasuredNetwork>(
              {"overlaps", "conflicts", "red_entries", "forced_red_entries", "lost_vehicles"}),
          backlog_metrics(), departure_metrics<MeasuredNetwork>(), MetricList<MeasuredNetwork>{breakdown_metric()},
-         energy_metrics<MeasuredNetwork>(), safety_metrics<MeasuredNetwork>()});
+         energy_metrics<MeasuredNetwork>(), safety_metrics<MeasuredNetwork>(), hcm_metrics<MeasuredNetwork>()});
     return kMetrics;
 }
 

@@ -9,6 +9,7 @@
 #include "base/containers/index.h"
 #include "measure/steady_state.h"
 #include "runs/driving/driving_meters.h"
+#include "runs/hcm/hcm_sampler.h"
 #include "scenario/build_model.h"
 #include "scenario/kinds/network_kind.h"
 #include "scenario/make_network.h"
@@ -303,6 +304,7 @@ NetworkResult run_network(const Scenario& scenario, std::size_t population,
                           const Observation& observation) {
     Model model = network_model(scenario, population);
     observation.prepare(model);
+    HcmSampler::prepare(scenario, model);
     Simulation simulation(model, threads);
     simulation.share_from(model.meso ? kSharedFromMeso : kSharedFromFull);
     NetworkResult result;
@@ -312,6 +314,8 @@ NetworkResult run_network(const Scenario& scenario, std::size_t population,
     StreetTracer tracer(scenario, model);
     CongestionSampler congestion(model, scenario.measure.interval_s);
     DrivingMeters driving(scenario, population, model);
+    std::optional<HcmSampler> hcm;
+    if (asks_for_hcm(scenario)) hcm.emplace(scenario, model);
     const std::int64_t end_tick = to_ticks(scenario.duration_s, model.step_s);
     while (simulation.state().tick < end_tick) {
         if (on_step && !on_step(simulation)) {
@@ -322,6 +326,7 @@ NetworkResult run_network(const Scenario& scenario, std::size_t population,
         tracer.sample(simulation.state());
         congestion.sample(simulation.state());
         driving.observe(simulation.state());
+        if (hcm) hcm->sample(simulation.state());
         observation.call(population, simulation);
         simulation.step();
     }
@@ -331,6 +336,10 @@ NetworkResult run_network(const Scenario& scenario, std::size_t population,
     measure(scenario, model, state, sampler, result);
     driving.observe(state);
     result.driving = driving.finish(state, result.measured.window);
+    if (hcm) {
+        hcm->sample(state);
+        result.hcm = hcm->rows(result.measured.window);
+    }
     result.delays = state.congestion.delays;
     result.delays.refused_stop_s = simulation.model().time_s(result.delays.refusal_ticks);
     result.delays.advised_s = simulation.model().time_s(result.delays.advised_ticks);

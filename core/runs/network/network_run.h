@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "measure/area.h"
+#include "measure/hcm.h"
 #include "runs/driving/driving_results.h"
 #include "runs/network/congestion.h"
 #include "runs/network/time_space.h"
@@ -76,6 +77,7 @@ struct NetworkResult {
     std::int64_t missed_turns = 0;  // imported networks: vehicles that reached the stop line in a wrong lane
     std::int64_t backlog = 0;       // vehicles that should have entered but found no room until the end of the run
     std::int64_t discretionary_lane_changes = 0;
+    std::vector<HcmRow> hcm;   // empty unless measure.hcm is on
     StreetTrace street_trace;  // empty unless measure.time_space is set
     bool complete = false;     // false: the run was stopped before its end
 };

@@ -48,8 +48,9 @@ grids and streets ends `measure.area_margin` beyond the outer stop lines. An imp
 const std::vector<TableDoc>& table_docs() {
     static const std::vector<TableDoc> kTables = [] {
         std::vector<TableDoc> all;
-        for (const auto group : {network_table_docs, intersection_table_docs, single_light_table_docs,
-                                 driving_table_docs, sweep_table_docs, string_table_docs, program_table_docs}) {
+        for (const auto group :
+             {network_table_docs, intersection_table_docs, single_light_table_docs, driving_table_docs, hcm_table_docs,
+              sweep_table_docs, string_table_docs, program_table_docs}) {
             for (TableDoc& table : group()) all.push_back(std::move(table));
         }
         return all;

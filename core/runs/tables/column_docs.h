@@ -45,6 +45,7 @@ std::vector<TableDoc> single_light_table_docs();
 std::vector<TableDoc> driving_table_docs();
 std::vector<TableDoc> sweep_table_docs();
 std::vector<TableDoc> string_table_docs();
+std::vector<TableDoc> hcm_table_docs();
 std::vector<TableDoc> program_table_docs();  // see program_columns.cpp
 
 // Returns the description of a column. Throws std::logic_error if there is none.

@@ -184,6 +184,10 @@ const Table& measure_table() {
             choice<&S::surrogate_safety>(
                 "surrogate_safety", {"off", "on"},
                 "report comfort and surrogate safety: jerk, hard braking, time to collision, braking, smallest gaps"),
+            choice<&S::hcm>(
+                "hcm", {"off", "on"},
+                "intersections: report saturation flow, capacity, control delay, queues and level of service of each "
+                "lane by the Highway Capacity Manual, in hcm.csv"),
             number<&S::area_margin_m>("area_margin", "m", {0, 10'000},
                                       "grids and streets: distance from the outer intersections to the boundary of the "
                                       "measured area, on their approaches and exit lanes")

@@ -1,4 +1,4 @@
-#include "signal_timing/signal_equations.h"
+#include "measure/signal_equations.h"
 
 #include <algorithm>
 #include <array>
@@ -56,6 +56,38 @@ double incremental_delay_s(double saturation, double capacity_veh_h, double peri
     const double excess = saturation - 1.0;
     const double random = 8.0 * k * upstream_i * saturation / (capacity_veh_h * period_h);
     return 900.0 * period_h * (excess + std::sqrt(excess * excess + random));
+}
+
+double initial_queue_delay_s(double queue_veh, double volume_veh_h, double capacity_veh_h, double period_h) {
+    if (!(queue_veh > 0.0)) return 0.0;
+    const double spare_veh_h = capacity_veh_h - volume_veh_h;
+    const double clears_h = spare_veh_h > 0.0 ? std::min(queue_veh / spare_veh_h, period_h) : period_h;
+    const double end_veh = queue_veh - clears_h * spare_veh_h;
+    const double end_without_veh = spare_veh_h < 0.0 ? -period_h * spare_veh_h : 0.0;
+    const double area_veh_h =
+        clears_h * 0.5 * (queue_veh + end_veh - end_without_veh) +
+        (end_veh * end_veh - end_without_veh * end_without_veh - queue_veh * queue_veh) / (2.0 * capacity_veh_h);
+    return 3600.0 * area_veh_h / (volume_veh_h * period_h);
+}
+
+double BackOfQueue::first_term_veh() const {
+    const double share = effective_green_s / cycle_s;
+    if (share >= 1.0) return 0.0;
+    const double saturation = std::min(1.0, volume_veh_h / capacity_veh_h);
+    return volume_veh_h / 3600.0 * cycle_s * (1.0 - share) / (1.0 - saturation * share);
+}
+
+double BackOfQueue::percentile_veh(double z) const {
+    constexpr double kMaxFactor = 1.8;
+    const double mean_veh = first_term_veh() + second_term_veh();
+    if (!(mean_veh > 0.0)) return mean_veh + third_term_veh();
+    const double saturation = volume_veh_h / capacity_veh_h;
+    double factor = 1.0 + z / std::sqrt(mean_veh);
+    if (saturation >= 1.0 && z > 0.0) {
+        const double share = effective_green_s / cycle_s;
+        factor += 0.6 * std::pow(z, 0.24) * std::pow(share, 0.33) * (1.0 - std::exp(2.0 - 2.0 * saturation));
+    }
+    return mean_veh * std::min(kMaxFactor, factor) + third_term_veh();
 }
 
 char level_of_service(double control_delay_s, double saturation) {

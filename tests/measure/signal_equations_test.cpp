@@ -1,5 +1,5 @@
 // Tests of the closed forms for signal times against values computed by hand.
-#include "signal_timing/signal_equations.h"
+#include "measure/signal_equations.h"
 
 #include <cmath>
 #include <numeric>

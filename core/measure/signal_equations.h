@@ -44,6 +44,29 @@ double uniform_delay_s(double cycle_s, double effective_green_s, double saturati
 double incremental_delay_s(double saturation, double capacity_veh_h, double period_h = 0.25, double k = 0.5,
                            double upstream_i = 1.0);
 
+// Returns the delay d3 that a queue at the start of the analysis period causes (HCM, 6th edition, chapter 19). Volume
+// and capacity stay constant in the period. `queue_veh` is this queue.
+double initial_queue_delay_s(double queue_veh, double volume_veh_h, double capacity_veh_h, double period_h);
+
+// The back of the queue of a lane: the vehicles that stop in a cycle, and those that the last cycle has left. The first
+// term Q1 is that of HCM 2000, chapter 16, appendix G, for random arrivals. The second and third term and the factor
+// for percentiles are those of the 6th edition, chapter 31.
+struct BackOfQueue {
+    double volume_veh_h = 0.0;
+    double capacity_veh_h = 0.0;
+    double cycle_s = 0.0;
+    double effective_green_s = 0.0;
+    double incremental_delay_s = 0.0;    // d2
+    double initial_queue_delay_s = 0.0;  // d3
+
+    double first_term_veh() const;
+    double second_term_veh() const { return incremental_delay_s * capacity_veh_h / 3600.0; }
+    double third_term_veh() const { return initial_queue_delay_s * volume_veh_h / 3600.0; }
+    // Returns the queue that is not exceeded with the probability of the quantile `z` of the normal distribution. z =
+    // 0: the mean queue.
+    double percentile_veh(double z) const;
+};
+
 // Returns the level of service, A to F, of a control delay (HCM exhibit 16-2). It is F for any degree of saturation
 // above 1 (HCM, 6th edition, exhibit 19-8).
 char level_of_service(double control_delay_s, double saturation);

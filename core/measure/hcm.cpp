@@ -1,0 +1,252 @@
+#include "measure/hcm.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+#include "base/containers/index.h"
+#include "base/nan.h"
+#include "measure/signal_equations.h"
+
+namespace stopline {
+
+namespace {
+
+constexpr double kSeconds = 3600.0;  // per hour
+
+// Returns the cycles that lie within the window.
+std::span<const HcmCycle> cycles_within(const HcmRecord& record, const TimeWindow& window) {
+    const auto is_before = [&](const HcmCycle& cycle) { return cycle.from_s < window.from_s; };
+    const auto first = std::find_if_not(record.cycles.begin(), record.cycles.end(), is_before);
+    const auto last = std::find_if(first, record.cycles.end(), [&](const HcmCycle& c) { return c.to_s > window.to_s; });
+    return {first, last};
+}
+
+// Measures the headways of a lane by its position in the queue.
+LaneDischarge discharge_of(const LaneGraph& graph, const HcmRecord& record, const TimeWindow& window, double cycle_s) {
+    const std::vector<Detector> line{{record.lane, graph.lanes[at(record.lane)].stop_line_m}};
+    std::vector<Crossing> crossings;
+    for (std::size_t k = 0; k < record.passages.size(); ++k) {
+        crossings.push_back({record.passages[k].time_s, static_cast<int>(k), 0, 0, 0.0F, 0.0F});
+    }
+    const auto latest_green_s = [&](int /*group*/, double time_s) {
+        const auto later = std::upper_bound(record.green_starts_s.begin(), record.green_starts_s.end(), time_s);
+        return later == record.green_starts_s.begin() ? -1.0 : *std::prev(later);
+    };
+    return discharge(graph, line, crossings, window, latest_green_s, cycle_s,
+                     [&](int k) { return record.passages[at(k)].has_queued; })
+        .lanes[0];
+}
+
+// Measures the mean time from the end of green to the last passage of a queued vehicle, over the greens for which the
+// queue lasts. It is below 0 if the last vehicle passes before the end of green.
+void measure_end_gain(std::span<const HcmCycle> cycles, const std::vector<HcmPassage>& passages, HcmRow& row) {
+    // A queue whose last vehicle passes earlier than this before the end of green was held by something else, such as
+    // oncoming traffic.
+    constexpr double kLongestHeadway_s = 4.0;
+    double sum_s = 0.0;
+    auto passage = passages.begin();
+    for (const HcmCycle& cycle : cycles) {
+        double last_s = -1.0;
+        for (; passage != passages.end() && passage->time_s < cycle.to_s; ++passage) {
+            if (passage->time_s >= cycle.green_from_s && passage->has_queued) last_s = passage->time_s;
+        }
+        if (!cycle.is_used || last_s < cycle.green_to_s - kLongestHeadway_s) continue;
+        sum_s += last_s - cycle.green_to_s;
+        ++row.used_greens;
+    }
+    row.end_gain_s = row.used_greens > 0 ? sum_s / row.used_greens : 0.0;
+}
+
+void measure_queues(std::span<const HcmCycle> cycles, HcmRow& row) {
+    std::vector<double> back_veh;
+    std::vector<double> back_m;
+    int residual = 0;
+    for (const HcmCycle& cycle : cycles) {
+        back_veh.push_back(cycle.back_veh);
+        back_m.push_back(cycle.back_m);
+        residual += cycle.residual_veh > 0 ? 1 : 0;
+        row.green_s += (cycle.green_to_s - cycle.green_from_s) / row.cycles;
+    }
+    row.back_50_veh = percentile(back_veh, 0.5);
+    row.back_95_veh = percentile(back_veh, 0.95);
+    row.back_50_m = percentile(back_m, 0.5);
+    row.back_95_m = percentile(back_m, 0.95);
+    row.residual_share = static_cast<double>(residual) / row.cycles;
+}
+
+// Measures one lane without its capacity, which can depend on the other lanes.
+HcmRow measured_row(const LaneGraph& graph, const HcmRecord& record, std::span<const HcmCycle> cycles) {
+    HcmRow row;
+    row.name = graph.lanes[at(record.lane)].name;
+    row.approach = record.approach;
+    row.intersection = record.intersection;
+    row.has_endless_demand = record.has_endless_demand;
+    const TimeWindow whole{cycles.front().from_s, cycles.back().to_s};
+    row.cycles = static_cast<int>(cycles.size());
+    row.cycle_s = whole.length_s() / row.cycles;
+    measure_queues(cycles, row);
+    row.discharge = discharge_of(graph, record, whole, row.cycle_s);
+    measure_end_gain(cycles, record.passages, row);
+    int passed = 0;
+    for (const HcmPassage& passage : record.passages) {
+        if (!whole.contains(passage.time_s)) continue;
+        ++passed;
+        row.control_delay_s += passage.delay_s;
+        row.stops += passage.stops;
+    }
+    row.control_delay_s = passed > 0 ? row.control_delay_s / passed : kNan;
+    row.stops = passed > 0 ? row.stops / passed : kNan;
+    const int growth = cycles.back().present_veh - cycles.front().present_before_veh;
+    row.initial_queue_veh = cycles.front().residual_before_veh;
+    row.passed_veh_h = kSeconds * passed / whole.length_s();
+    row.volume_veh_h = kSeconds * (passed + growth) / whole.length_s();
+    return row;
+}
+
+// Sums over the greens of all lanes.
+struct GreenMeans {
+    double headways_s = 0.0;
+    double lost_s = 0.0;
+    int saturated = 0;
+    double gains_s = 0.0;
+    int used = 0;
+
+    void add(const HcmRow& row) {
+        const int own = row.discharge.saturated_greens;
+        if (own > 0) {
+            headways_s += own * row.discharge.saturation_headway_s;
+            lost_s += own * row.discharge.startup_lost_time_s;
+            saturated += own;
+        }
+        gains_s += row.used_greens * row.end_gain_s;
+        used += row.used_greens;
+    }
+};
+
+// Sets saturation flow, lost time and end gain. Lanes with fewer than kMinGreens greens get the means of all lanes.
+void set_saturation_flows(std::vector<HcmRow>& rows) {
+    GreenMeans all;
+    for (const HcmRow& row : rows) all.add(row);
+    for (HcmRow& row : rows) {
+        const bool is_own = row.discharge.saturated_greens >= kMinGreens;
+        const double mean_headway_s = all.saturated > 0 ? all.headways_s / all.saturated : kNan;
+        const double mean_lost_s = all.saturated > 0 ? all.lost_s / all.saturated : kNan;
+        row.saturation_flow_veh_h = kSeconds / (is_own ? row.discharge.saturation_headway_s : mean_headway_s);
+        row.startup_lost_time_s = is_own ? row.discharge.startup_lost_time_s : mean_lost_s;
+        if (row.used_greens >= kMinGreens) continue;
+        row.end_gain_s = all.used >= kMinGreens ? all.gains_s / all.used : kEndGain_s;
+    }
+}
+
+void apply_equations(HcmRow& row) {
+    const double period_h = row.cycles * row.cycle_s / kSeconds;
+    row.effective_green_s = std::clamp(row.green_s - row.startup_lost_time_s + row.end_gain_s, 0.0, row.cycle_s);
+    row.capacity_veh_h = capacity_veh_h(row.saturation_flow_veh_h, row.effective_green_s, row.cycle_s);
+    row.saturation = row.volume_veh_h / row.capacity_veh_h;
+    row.uniform_delay_s = uniform_delay_s(row.cycle_s, row.effective_green_s, row.saturation);
+    row.incremental_delay_s = incremental_delay_s(row.saturation, row.capacity_veh_h, period_h);
+    row.initial_queue_delay_s =
+        initial_queue_delay_s(row.initial_queue_veh, row.volume_veh_h, row.capacity_veh_h, period_h);
+    const BackOfQueue back{row.volume_veh_h,      row.capacity_veh_h,      row.cycle_s,
+                           row.effective_green_s, row.incremental_delay_s, row.initial_queue_delay_s};
+    constexpr double kNormal95 = 1.64;  // quantile of the normal distribution, as in HCM chapter 31
+    row.formula_back_50_veh = back.percentile_veh(0.0);
+    row.formula_back_95_veh = back.percentile_veh(kNormal95);
+    const bool has_residual_queues = row.residual_share >= 0.5;
+    if (row.saturation > 1.0 || (row.has_endless_demand && has_residual_queues)) {
+        row.state = HcmState::oversaturated;
+    } else if (has_residual_queues) {
+        row.state = HcmState::saturated;
+    }
+    const double saturation = row.state == HcmState::oversaturated ? std::max(row.saturation, 1.001) : row.saturation;
+    if (!std::isnan(row.control_delay_s)) row.level = level_of_service(row.control_delay_s, saturation);
+    if (!std::isnan(row.formula_delay_s())) row.formula_level = level_of_service(row.formula_delay_s(), saturation);
+}
+
+// Returns a row with the sums and means of lanes, weighted by the vehicles that pass. The level of service follows from
+// the delay alone (HCM exhibit 19-8, note).
+HcmRow total_of(const std::vector<const HcmRow*>& lanes, HcmRow::Scope scope, const std::string& name) {
+    HcmRow total;
+    total.scope = scope;
+    total.name = name;
+    total.approach = lanes.front()->approach;
+    total.intersection = lanes.front()->intersection;
+    total.cycles = lanes.front()->cycles;
+    for (double* value :
+         {&total.cycle_s, &total.green_s, &total.saturation_flow_veh_h, &total.startup_lost_time_s, &total.end_gain_s,
+          &total.effective_green_s, &total.back_50_veh, &total.back_95_veh, &total.back_50_m, &total.back_95_m,
+          &total.formula_back_50_veh, &total.formula_back_95_veh, &total.residual_share}) {
+        *value = kNan;
+    }
+    for (const HcmRow* lane : lanes) {
+        total.capacity_veh_h += lane->capacity_veh_h;
+        total.volume_veh_h += lane->volume_veh_h;
+        total.passed_veh_h += lane->passed_veh_h;
+        total.saturation = std::max(total.saturation, lane->saturation);
+        total.state = std::max(total.state, lane->state);
+        if (lane->passed_veh_h == 0.0) continue;
+        total.control_delay_s += lane->passed_veh_h * lane->control_delay_s;
+        total.stops += lane->passed_veh_h * lane->stops;
+        total.uniform_delay_s += lane->passed_veh_h * lane->uniform_delay_s;
+        total.incremental_delay_s += lane->passed_veh_h * lane->incremental_delay_s;
+        total.initial_queue_delay_s += lane->passed_veh_h * lane->initial_queue_delay_s;
+    }
+    for (double* value : {&total.control_delay_s, &total.stops, &total.uniform_delay_s, &total.incremental_delay_s,
+                          &total.initial_queue_delay_s}) {
+        *value /= total.passed_veh_h;  // NaN if no vehicle passes
+    }
+    if (!std::isnan(total.control_delay_s)) total.level = level_of_service(total.control_delay_s, 0.0);
+    if (!std::isnan(total.formula_delay_s())) total.formula_level = level_of_service(total.formula_delay_s(), 0.0);
+    return total;
+}
+
+// Appends a row for each name of an approach or intersection, in the order of the lanes.
+void add_totals(std::size_t lanes, HcmRow::Scope scope, std::string HcmRow::*name, std::vector<HcmRow>& rows) {
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < lanes; ++k) {
+        if (std::find(names.begin(), names.end(), rows[k].*name) == names.end()) names.push_back(rows[k].*name);
+    }
+    for (const std::string& one : names) {
+        std::vector<const HcmRow*> members;
+        for (std::size_t k = 0; k < lanes; ++k) {
+            if (rows[k].*name == one) members.push_back(&rows[k]);
+        }
+        HcmRow total = total_of(members, scope, one);
+        rows.push_back(std::move(total));
+    }
+}
+
+}  // namespace
+
+const char* hcm_state_name(HcmState state) {
+    constexpr std::array<const char*, 3> kNames{"free", "saturated", "oversaturated"};
+    return kNames[static_cast<std::size_t>(state)];
+}
+
+double percentile(std::vector<double> values, double share) {
+    if (values.empty()) return kNan;
+    std::sort(values.begin(), values.end());
+    const double place = share * static_cast<double>(values.size() - 1);
+    const auto below = static_cast<std::size_t>(place);
+    const std::size_t above = std::min(below + 1, values.size() - 1);
+    return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
+}
+
+std::vector<HcmRow> hcm_rows(const LaneGraph& graph, const std::vector<HcmRecord>& records, const TimeWindow& window) {
+    std::vector<HcmRow> rows;
+    for (const HcmRecord& record : records) {
+        const std::span<const HcmCycle> cycles = cycles_within(record, window);
+        if (!cycles.empty()) rows.push_back(measured_row(graph, record, cycles));
+    }
+    set_saturation_flows(rows);
+    for (HcmRow& row : rows) apply_equations(row);
+    const std::size_t lanes = rows.size();
+    add_totals(lanes, HcmRow::Scope::approach, &HcmRow::approach, rows);
+    add_totals(lanes, HcmRow::Scope::intersection, &HcmRow::intersection, rows);
+    return rows;
+}
+
+}  // namespace stopline

@@ -1,0 +1,123 @@
+// The report by the Highway Capacity Manual in runs: capacity against counts, delay against the closed form, and no
+// effect on a run.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "runs/hcm/hcm_tables.h"
+#include "runs/intersection/intersection_run.h"
+#include "runs/network/network_run.h"
+#include "runs/run.h"
+#include "runs/run_kind.h"
+#include "scenario/load_scenario.h"
+
+namespace stopline {
+namespace {
+
+Scenario hcm_scenario(const std::string& text) {
+    return parse_scenario("{fidelity: meso, populations: [CTG-Ref], " + text + "}", "hcm.yaml");
+}
+
+Scenario hcm_intersection(const std::string& demand, const std::string& hcm) {
+    return hcm_scenario(
+        "network: {kind: intersection}, signal: {first_green: 1 s, green: 20 s}, measure: {warmup_cycles: 2, cycles: 30, "
+        "hcm: " +
+        hcm + "}, demand: " + demand);
+}
+
+// A light on one lane with evenly spaced arrivals. The road is long enough for vehicles to reach the speed limit.
+Scenario hcm_light(const std::string& inflow) {
+    return hcm_scenario(
+        "meso: {base: table2, leader_speed_share: 100 %}, network: {approach: {length: 1000 m, exit_length: 700 m}}, "
+        "signal: {first_green: 27 s, green: 30 s, yellow: 3 s, cycle: 60 s}, duration: 3600 s, measure: {green: [10 s], "
+        "hcm: on}, demand: {kind: rate, inflow: " +
+        inflow + "}");
+}
+
+TEST(HcmRun, CapacityOfASaturatedIntersectionMatchesCounts) {
+    const Scenario scenario = hcm_intersection("{kind: saturated, start: queued, left: 0 %, right: 0 %}", "on");
+    const IntersectionResult result = run_intersection(scenario, 0);
+    int lanes = 0;
+    for (const HcmRow& row : result.hcm) {
+        if (row.scope != HcmRow::Scope::lane) continue;
+        ++lanes;
+        EXPECT_GE(row.cycles, 28);
+        EXPECT_NEAR(row.capacity_veh_h, row.passed_veh_h, 0.03 * row.passed_veh_h) << row.name;
+        EXPECT_EQ(row.state, HcmState::oversaturated) << row.name;
+        EXPECT_EQ(row.level, 'F') << row.name;
+        EXPECT_NEAR(row.green_s, 20.0, 1e-6);
+    }
+    EXPECT_EQ(lanes, 8);
+    EXPECT_EQ(result.hcm.size(), 8U + 4U + 1U);
+}
+
+// The capacity measured below saturation predicts the count at saturation.
+TEST(HcmRun, CapacityBelowSaturationPredictsTheSaturatedCount) {
+    const auto lane = [](const std::string& inflow) { return run_population(hcm_light(inflow), 0).hcm.at(0); };
+    const HcmRow below = lane("700 veh/h");
+    const HcmRow above = lane("1600 veh/h");
+    EXPECT_EQ(below.state, HcmState::free);
+    EXPECT_LT(below.saturation, 0.95);
+    EXPECT_EQ(above.state, HcmState::oversaturated);
+    EXPECT_EQ(above.level, 'F');
+    EXPECT_GT(above.saturation, 1.2);
+    EXPECT_NEAR(below.capacity_veh_h, above.passed_veh_h, 0.03 * above.passed_veh_h);
+}
+
+TEST(HcmRun, DelayOfEvenArrivalsIsTheUniformDelay) {
+    for (const char* const inflow : {"300 veh/h", "500 veh/h", "700 veh/h"}) {
+        const HcmRow row = run_population(hcm_light(inflow), 0).hcm.at(0);
+        std::printf("%s: X %.3f measured %.2f s, d1 %.2f s, stops %.3f, queue %.1f veh, formula %.1f veh\n", inflow,
+                    row.saturation, row.control_delay_s, row.uniform_delay_s, row.stops, row.back_50_veh,
+                    row.formula_back_50_veh);
+        EXPECT_NEAR(row.volume_veh_h, std::stod(inflow), 0.02 * std::stod(inflow));
+        EXPECT_NEAR(row.control_delay_s, row.uniform_delay_s, 0.05 * row.uniform_delay_s) << inflow;
+    }
+}
+
+TEST(HcmRun, DoesNotChangeTheRun) {
+    const std::string demand = "{kind: rate, inflow: 500 veh/h, arrivals: poisson, left: 10 %}";
+    const IntersectionResult with = run_intersection(hcm_intersection(demand, "on"), 0);
+    const IntersectionResult without = run_intersection(hcm_intersection(demand, "off"), 0);
+    EXPECT_EQ(with.state_hash, without.state_hash);
+    EXPECT_TRUE(without.hcm.empty());
+    const auto columns = [&](const std::string& hcm) {
+        std::vector<std::string> names;
+        const Scenario scenario = hcm_intersection(demand, hcm);
+        for (const RunMetric& metric : run_kind(scenario).metrics(scenario, 0, [] { return true; })) {
+            names.push_back(metric.column);
+        }
+        return names;
+    };
+    const std::vector<std::string> on = columns("on");
+    const std::vector<std::string> off = columns("off");
+    EXPECT_EQ(on.size(), off.size() + 3);
+    EXPECT_EQ(std::count(on.begin(), on.end(), "hcm_los"), 1);
+    EXPECT_EQ(std::count(off.begin(), off.end(), "hcm_los"), 0);
+}
+
+TEST(HcmRun, CoversTheLanesOfNetworksAndActuatedSignals) {
+    const Scenario scenario = hcm_scenario(
+        "network: {kind: grid, grid: {columns: 2, rows: 1}}, signal: {controller: actuated, first_green: 1 s, green: 20 "
+        "s}, duration: 900 s, measure: {window: 800 s, hcm: on}, demand: {kind: rate, inflow: 400 veh/h}");
+    const NetworkResult result = run_network(scenario, 0);
+    Scenario off = scenario;
+    off.measure.hcm = "off";
+    EXPECT_EQ(run_network(off, 0).state_hash, result.state_hash);
+    int intersections = 0;
+    for (const HcmRow& row : result.hcm) {
+        intersections += row.scope == HcmRow::Scope::intersection ? 1 : 0;
+        if (row.scope != HcmRow::Scope::lane) continue;
+        EXPECT_GT(row.cycles, 3) << row.name;
+        EXPECT_LT(row.green_s, row.cycle_s) << row.name;
+        EXPECT_GT(row.control_delay_s, 0.0) << row.name;
+        EXPECT_LT(row.control_delay_s, 100.0) << row.name;
+        EXPECT_NE(row.level, '-') << row.name;
+    }
+    EXPECT_EQ(intersections, 2);
+}
+
+}  // namespace
+}  // namespace stopline
