@@ -30,7 +30,7 @@ struct ScorecardCliOptions {
 
 void declare(Options& app, ScorecardCliOptions& options) {
     app.add("--section", options.section,
-            "Only rows of this section and its subsections, such as III, III.E or coordination")
+            "Only rows of this section and its subsections, such as III, III.E, coordination or energy")
         .type_name("S");
     app.add_flag("--csv", options.csv, "Print CSV instead of a table");
     app.add("--markdown", options.markdown,

@@ -24,7 +24,9 @@ std::string section_title(const std::string& main) {
     for (const auto& [name, title] : kTitles) {
         if (main == name) return fmt::format("Section {}: {}", main, title);
     }
-    return main == "coordination" ? "Beyond the paper: coordination between vehicles" : "Section " + main;
+    if (main == "coordination") return "Beyond the paper: coordination between vehicles";
+    if (main == "energy") return "Beyond the paper: energy and delay";
+    return "Section " + main;
 }
 
 std::vector<std::string> main_sections(const std::vector<ScoredRow>& rows) {

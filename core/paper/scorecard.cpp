@@ -99,14 +99,15 @@ std::map<std::string, Measurements> measure_for(const std::vector<Target>& targe
 // experiments() and row_judges() concatenate the lists of all sections. For a new section, add its lists to both
 // functions.
 std::span<const Experiment> experiments() {
-    static const std::vector<Experiment> kAll =
-        concatenated<Experiment>({section3_experiments(), section4_experiments(), section5_experiments(),
-                                  section6_experiments(), section7_experiments(), coordination_experiments()});
+    static const std::vector<Experiment> kAll = concatenated<Experiment>(
+        {section3_experiments(), section4_experiments(), section5_experiments(), section6_experiments(),
+         section7_experiments(), coordination_experiments(), energy_experiments()});
     return kAll;
 }
 std::span<const RowJudge> row_judges() {
-    static const std::vector<RowJudge> kAll = concatenated<RowJudge>(
-        {section3_rows(), section4_rows(), section5_rows(), section6_rows(), section7_rows(), coordination_rows()});
+    static const std::vector<RowJudge> kAll =
+        concatenated<RowJudge>({section3_rows(), section4_rows(), section5_rows(), section6_rows(), section7_rows(),
+                                coordination_rows(), energy_rows()});
     return kAll;
 }
 
@@ -126,7 +127,7 @@ Scenario scenario_of(const Experiment& experiment, const ScorecardOptions& optio
 
 std::vector<std::string> commands_behind(const std::vector<ScoredRow>& rows) {
     constexpr const char* kBerlin = "stopline-sweep scenarios/sweeps/berlin.yaml";
-    constexpr std::array<std::array<const char*, 2>, 10> kCommands{{
+    constexpr std::array<std::array<const char*, 2>, 12> kCommands{{
         {"I", kBerlin},  // the introduction of the paper gives a gain for Berlin
         {"III", "stopline-run scenarios/single_light.yaml"},
         {"IV", "stopline-sweep scenarios/sweeps/intersection.yaml"},
@@ -137,6 +138,8 @@ std::vector<std::string> commands_behind(const std::vector<ScoredRow>& rows) {
         {"VII", kBerlin},
         {"coordination", "stopline-sweep scenarios/sweeps/clearing_grid.yaml"},
         {"coordination", "stopline-sweep scenarios/sweeps/coordination_four_lanes.yaml"},
+        {"energy", "stopline-sweep scenarios/sweeps/energy_intersection.yaml"},
+        {"energy", "stopline-sweep scenarios/sweeps/energy_grid.yaml"},
     }};
     std::vector<std::string> commands;
     for (const auto& [section, command] : kCommands) {

@@ -113,19 +113,41 @@ TEST(Coordination, RowsCompareTheRunsThatTheyName) {
     EXPECT_NEAR(answer_of("K15", measured)->low, 25.0, 1e-9);
 }
 
-TEST(Coordination, RowsAreNoResultsOfThePaper) {
-    const Scorecard scorecard = score("coordination", {});
-    EXPECT_EQ(scorecard.rows.size(), load_own_rows().size());
-    EXPECT_EQ(scorecard.count(Verdict::own), static_cast<int>(scorecard.rows.size()));
-    EXPECT_EQ(scorecard.count(Verdict::open), 0);
-    EXPECT_TRUE(contains(results_text(scorecard), "0 rows with results")) << results_text(scorecard);
-    EXPECT_TRUE(contains(results_text(scorecard), "15 further rows hold results of our own."));
-    for (const ScoredRow& row : scorecard.rows) {
-        EXPECT_FALSE(row.measured_as.empty()) << row.target.id << " is missing in explanations.csv";
-        EXPECT_TRUE(std::any_of(row_judges().begin(), row_judges().end(), [&](const RowJudge& judge) {
-            return judge.id == row.target.id;
-        })) << row.target.id;
+// Rows E01 to E13.
+TEST(Energy, RowsCompareTheRunsThatTheyName) {
+    Measurements measured;
+    measured.set("fuel_g_per_km 0 CTG-Ref", 100);
+    measured.set("fuel_g_per_km 0 CDG", 80);
+    measured.set("fuel_g_per_km 15 CTG-Ref", 200);
+    measured.set("fuel_g_per_km 15 CDG", 150);
+    measured.set("hcm_control_delay_s 0 CDG", 30);
+    EXPECT_EQ(answer_of("E01", measured)->low, 100.0);
+    EXPECT_EQ(answer_of("E02", measured)->low, 80.0);
+    EXPECT_NEAR(answer_of("E03", measured)->low, -20.0, 1e-9);
+    EXPECT_EQ(answer_of("E05", measured)->low, 30.0);
+    EXPECT_NEAR(answer_of("E06", measured)->low, -25.0, 1e-9);
+    EXPECT_FALSE(answer_of("E04", measured));
+    EXPECT_FALSE(answer_of("E12", measured));
+}
+
+TEST(OwnRows, AreNoResultsOfThePaper) {
+    std::size_t rows = 0;
+    for (const char* const section : {"coordination", "energy"}) {
+        const Scorecard scorecard = score(section, {});
+        const std::size_t own = scorecard.rows.size();
+        rows += own;
+        EXPECT_EQ(scorecard.count(Verdict::own), static_cast<int>(own));
+        EXPECT_EQ(scorecard.count(Verdict::open), 0);
+        EXPECT_TRUE(contains(results_text(scorecard), "0 rows with results")) << results_text(scorecard);
+        EXPECT_TRUE(contains(results_text(scorecard), std::to_string(own) + " further rows hold results of our own."));
+        for (const ScoredRow& row : scorecard.rows) {
+            EXPECT_FALSE(row.measured_as.empty()) << row.target.id << " is missing in explanations.csv";
+            EXPECT_TRUE(std::any_of(row_judges().begin(), row_judges().end(), [&](const RowJudge& judge) {
+                return judge.id == row.target.id;
+            })) << row.target.id;
+        }
     }
+    EXPECT_EQ(rows, load_own_rows().size());
 }
 
 TEST(Scorecard, JudgesInputsWithoutMeasuring) {
@@ -205,7 +227,8 @@ TEST(Scorecard, NamesTheCommandsOfASection) {
     EXPECT_EQ(commands("VII"), Commands{"stopline-sweep scenarios/sweeps/berlin.yaml"});
     EXPECT_EQ(commands("I"), commands("VII"));
     EXPECT_EQ(commands("coordination").size(), 2U);
-    EXPECT_EQ(commands("").size(), 9U);
+    EXPECT_EQ(commands("energy").size(), 2U);
+    EXPECT_EQ(commands("").size(), 11U);
     for (const std::string& command : commands("")) {
         const std::size_t file = command.find("scenarios/");
         if (file == std::string::npos) continue;

@@ -11,6 +11,7 @@ bool in_v(const std::string& section) { return section == "V"; }
 bool in_vi(const std::string& section) { return section == "VI"; }
 bool in_vii(const std::string& section) { return section == "VII"; }
 bool in_coordination(const std::string& section) { return section == "coordination"; }
+bool in_energy(const std::string& section) { return section == "energy"; }
 // Fig. 23 compares grid and arterial with the single intersection, so Section VI also needs the intersection job.
 bool in_iv_or_vi(const std::string& section) { return in_iv(section) || in_vi(section); }
 
@@ -39,7 +40,9 @@ const std::vector<Job>& all_jobs() {
         {"clearing_grid", "coordination", "grid with cooperative clearing", 120, 8, in_coordination,
          run_clearing_grid_job},
         {"coordination_four_lanes", "coordination", "Berlin with coordination", 150, 20, in_coordination,
-         run_coordination_berlin_job}};
+         run_coordination_berlin_job},
+        {"energy_intersection", "energy", "energy at the intersection", 60, 8, in_energy, run_energy_intersection_job},
+        {"energy_grid", "energy", "energy on the grid", 20, 5, in_energy, run_energy_grid_job}};
     return kJobs;
 }
 

@@ -33,6 +33,8 @@ JobOutput run_berlin_job(const JobContext& context);        // Fig. 24 to 26
 // Beyond the paper: coordination between vehicles. No figures; rows of the scorecard.
 JobOutput run_clearing_grid_job(const JobContext& context);
 JobOutput run_coordination_berlin_job(const JobContext& context);
+JobOutput run_energy_intersection_job(const JobContext& context);
+JobOutput run_energy_grid_job(const JobContext& context);
 
 // Runs the intersection sweep in full dynamics, or loads its stored runs. Sections IV and V share these runs.
 SweepRuns intersection_runs(const ScorecardOptions& options, ProgressRange range);

@@ -112,6 +112,10 @@ JobOutput run_clearing_grid_job(const JobContext& context) {
 JobOutput run_coordination_berlin_job(const JobContext& context) {
     return sweep_job(context, "coordination_four_lanes", "coordination_four_lanes");
 }
+JobOutput run_energy_intersection_job(const JobContext& context) {
+    return sweep_job(context, "energy_intersection", "energy_intersection");
+}
+JobOutput run_energy_grid_job(const JobContext& context) { return sweep_job(context, "energy_grid", "energy_grid"); }
 
 JobOutput run_unstable_job(const JobContext& context) {
     JobWriter writer(context);

@@ -81,7 +81,7 @@ std::string answer_html(const ReportContent& content) {
 
 std::string facts_html(const ReportContent& content) {
     std::string html = "<section id=\"facts\">\n<h2>This report</h2>\n<dl class=\"facts\">\n";
-    html += fact("Sections", content.section == "all" ? "all (III to VII, coordination)" : content.section);
+    html += fact("Sections", content.section == "all" ? "all (III to VII, coordination, energy)" : content.section);
     html += fact("Extent", content.reduced() ? "reduced (--quick)" : "full");
     html += fact("Version", content.version);
     html += fact("Program", content.program);

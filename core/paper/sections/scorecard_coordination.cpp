@@ -3,18 +3,13 @@
 // "coordination" of the scorecard has no values of the paper.
 #include <array>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include "base/io/csv.h"
-#include "measure/confidence.h"
 #include "paper/sections/scorecard_sections.h"
-#include "paper/sections/scorecard_sweeps.h"
-#include "runs/run_metrics.h"
+#include "paper/sections/sweep_means.h"
 
 namespace stopline {
 
@@ -23,8 +18,7 @@ namespace {
 constexpr const char* kClearingGrid = "clearing_grid";
 constexpr const char* kFourLanes = "coordination_four_lanes";
 
-// Measured columns of the sweep results. The name of a measurement is the name of the column, a space and the name of
-// the runs, such as "throughput_veh_h with 15 CDG".
+// Measured columns of the sweep results (sweep_means.h).
 constexpr std::array<const char*, 8> kCoordinationColumns{
     "throughput_veh_h",      "gridlocks",       "teleported",       "delay_junction_blocking_h",
     "delay_turn_blocking_h", "delay_refusal_h", "delay_gridlock_h", "delay_wrong_lane_h"};
@@ -36,68 +30,41 @@ std::string runs_in_berlin(bool coordination, const std::string& population) {
     return fmt::format("{} {}", coordination ? "with" : "without", population);
 }
 
-// Runs a sweep. Stores the mean over the seeds of each column for all runs to which `name_of` gives the same name.
-Measurements measure_means(const ScorecardOptions& options, const char* sweep,
-                           std::string (*name_of)(const Scenario& scenario, const std::string& population)) {
-    const SweepRuns runs =
-        run_sweep(options, fmt::format("{}.yaml", sweep).c_str(), {}, sweep, run_metrics, {0.0, 1.0});
-    std::map<std::string, std::vector<double>> values;
-    runs.store.for_each_run([&](std::size_t point, const std::string& text) {
-        const Scenario scenario = runs.sweep.scenario(runs.sweep.combination(point));
-        for (const char* const column : kCoordinationColumns) {
-            values[fmt::format("{} {}", column, name_of(scenario, runs.sweep.population(point)))].push_back(
-                parse_number(value_in(text, column)).value_or(std::nan("")));
-        }
-    });
-    Measurements measured;
-    for (const auto& [name, of_seeds] : values) measured.set(name, mean_of(of_seeds));
-    measured.set("violations", static_cast<double>(runs.totals.runs_with_violations));
-    return measured;
-}
-
 Measurements measure_clearing_grid(const Scenario& /*scenario*/, const ScorecardOptions& options) {
-    return measure_means(options, kClearingGrid, [](const Scenario& scenario, const std::string& population) {
-        return runs_on_grid(scenario.rules.clearing == "cooperative",
-                            static_cast<int>(std::lround(scenario.signal.green_s)), population);
-    });
+    return measure_means(options, kClearingGrid, kCoordinationColumns,
+                         [](const Scenario& scenario, const std::string& population) {
+                             return runs_on_grid(scenario.rules.clearing == "cooperative",
+                                                 static_cast<int>(std::lround(scenario.signal.green_s)), population);
+                         });
 }
 
 Measurements measure_four_lanes(const Scenario& /*scenario*/, const ScorecardOptions& options) {
-    return measure_means(options, kFourLanes, [](const Scenario& scenario, const std::string& population) {
-        return runs_in_berlin(scenario.rules.clearing == "cooperative", population);
-    });
+    return measure_means(options, kFourLanes, kCoordinationColumns,
+                         [](const Scenario& scenario, const std::string& population) {
+                             return runs_in_berlin(scenario.rules.clearing == "cooperative", population);
+                         });
 }
 
 using MaybeAnswer = std::optional<Answer>;
 using MaybeNumber = std::optional<double>;
 
-MaybeNumber column_of(const Measurements& m, const std::string& column, const std::string& runs) {
-    return m.find(column + " " + runs);
-}
-
-// Returns value / reference in percent, minus `subtracted`. Returns nothing if one of the values is missing.
-MaybeAnswer percent_answer(MaybeNumber value, MaybeNumber reference, double subtracted) {
-    if (!value || !reference) return std::nullopt;
-    return number_answer(100.0 * *value / *reference - subtracted);
-}
-
 // Returns the gain in throughput over CTG-Ref on the same roads with the same measures.
 template <bool kClearing, int kGreen_s>
 MaybeAnswer grid_gain(const Target& /*target*/, const Measurements& m) {
-    return percent_answer(column_of(m, "throughput_veh_h", runs_on_grid(kClearing, kGreen_s, "CDG")),
-                          column_of(m, "throughput_veh_h", runs_on_grid(kClearing, kGreen_s, "CTG-Ref")), 100.0);
+    return percent_answer(mean_of_column(m, "throughput_veh_h", runs_on_grid(kClearing, kGreen_s, "CDG")),
+                          mean_of_column(m, "throughput_veh_h", runs_on_grid(kClearing, kGreen_s, "CTG-Ref")), 100.0);
 }
 
 MaybeAnswer cost_without_blocking(const Target& /*target*/, const Measurements& m) {
-    return percent_answer(column_of(m, "throughput_veh_h", runs_on_grid(true, 10, "CDG")),
-                          column_of(m, "throughput_veh_h", runs_on_grid(false, 10, "CDG")), 100.0);
+    return percent_answer(mean_of_column(m, "throughput_veh_h", runs_on_grid(true, 10, "CDG")),
+                          mean_of_column(m, "throughput_veh_h", runs_on_grid(false, 10, "CDG")), 100.0);
 }
 
 // Returns the sum of a column over the runs of CDG with clearing.
 MaybeAnswer sum_with_clearing(const Measurements& m, const char* column) {
     double sum = 0.0;
     for (const int green_s : {10, 15, 20}) {
-        const MaybeNumber value = column_of(m, column, runs_on_grid(true, green_s, "CDG"));
+        const MaybeNumber value = mean_of_column(m, column, runs_on_grid(true, green_s, "CDG"));
         if (!value) return std::nullopt;
         sum += *value;
     }
@@ -114,7 +81,7 @@ MaybeAnswer teleported_with_clearing(const Target& /*target*/, const Measurement
 MaybeNumber blocking_delay_h(const Measurements& m, const std::string& runs) {
     double sum_h = 0.0;
     for (const char* const column : {"delay_junction_blocking_h", "delay_turn_blocking_h", "delay_gridlock_h"}) {
-        const MaybeNumber value = column_of(m, column, runs);
+        const MaybeNumber value = mean_of_column(m, column, runs);
         if (!value) return std::nullopt;
         sum_h += *value;
     }
@@ -130,13 +97,13 @@ MaybeAnswer blocking_share(const Target& /*target*/, const Measurements& m) {
 // clearing.
 template <int kGreen_s>
 MaybeAnswer refusal_share(const Target& /*target*/, const Measurements& m) {
-    return percent_answer(column_of(m, "delay_refusal_h", runs_on_grid(true, kGreen_s, "CDG")),
+    return percent_answer(mean_of_column(m, "delay_refusal_h", runs_on_grid(true, kGreen_s, "CDG")),
                           blocking_delay_h(m, runs_on_grid(false, kGreen_s, "CDG")), 0.0);
 }
 
 MaybeAnswer berlin_gain(const Measurements& m, bool coordination, const char* population) {
-    return percent_answer(column_of(m, "throughput_veh_h", runs_in_berlin(coordination, population)),
-                          column_of(m, "throughput_veh_h", runs_in_berlin(coordination, "CTG-Ref")), 100.0);
+    return percent_answer(mean_of_column(m, "throughput_veh_h", runs_in_berlin(coordination, population)),
+                          mean_of_column(m, "throughput_veh_h", runs_in_berlin(coordination, "CTG-Ref")), 100.0);
 }
 MaybeAnswer cdg_alone(const Target& /*target*/, const Measurements& m) { return berlin_gain(m, false, "CDG"); }
 MaybeAnswer cdg_coordinated(const Target& /*target*/, const Measurements& m) { return berlin_gain(m, true, "CDG"); }
@@ -144,8 +111,8 @@ MaybeAnswer switch_coordinated(const Target& /*target*/, const Measurements& m) 
     return berlin_gain(m, true, "SWITCH-1");
 }
 MaybeAnswer wrong_lane_share(const Target& /*target*/, const Measurements& m) {
-    return percent_answer(column_of(m, "delay_wrong_lane_h", runs_in_berlin(true, "CDG")),
-                          column_of(m, "delay_wrong_lane_h", runs_in_berlin(false, "CDG")), 0.0);
+    return percent_answer(mean_of_column(m, "delay_wrong_lane_h", runs_in_berlin(true, "CDG")),
+                          mean_of_column(m, "delay_wrong_lane_h", runs_in_berlin(false, "CDG")), 0.0);
 }
 
 }  // namespace

@@ -25,4 +25,7 @@ std::span<const RowJudge> section7_rows();
 std::span<const Experiment> coordination_experiments();
 std::span<const RowJudge> coordination_rows();
 
+std::span<const Experiment> energy_experiments();
+std::span<const RowJudge> energy_rows();
+
 }  // namespace stopline

@@ -104,7 +104,7 @@ refused() {
 }
 search=$PATH
 touch "$work/file"
-refused "unknown section" "allowed: III, IV, V, VI, VII, coordination, all" --section VIII --output "$work/none"
+refused "unknown section" "allowed: III, IV, V, VI, VII, coordination, energy, all" --section VIII --output "$work/none"
 [ -e "$work/none" ] && fail "there is a folder for an unknown section"
 refused "no folder" "cannot create the folder" --section III --output "$work/file/sub"
 refused "no threads" "--threads" --threads 0

@@ -31,7 +31,8 @@ TEST(JobList, HasUniqueNamesAndExpectedDurations) {
 }
 
 TEST(JobList, OfASectionIncludesTheJobsThatItComparesWith) {
-    EXPECT_EQ(known_sections(), (std::vector<std::string>{"III", "IV", "V", "VI", "VII", "coordination", "all"}));
+    EXPECT_EQ(known_sections(),
+              (std::vector<std::string>{"III", "IV", "V", "VI", "VII", "coordination", "energy", "all"}));
     EXPECT_EQ(jobs_of("all").size(), all_jobs().size());
     EXPECT_TRUE(jobs_of("VIII").empty());
     EXPECT_TRUE(jobs_of("").empty());
@@ -54,7 +55,9 @@ TEST(JobList, CoversTheExperimentsOfTheScorecard) {
                                                  "grid_stability",
                                                  "berlin",
                                                  "clearing_grid",
-                                                 "coordination_four_lanes"};
+                                                 "coordination_four_lanes",
+                                                 "energy_intersection",
+                                                 "energy_grid"};
     std::set<std::string> names;
     for (const Experiment& experiment : experiments()) names.insert(experiment.name);
     EXPECT_EQ(names, measured_by_jobs);
