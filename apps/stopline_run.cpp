@@ -78,7 +78,7 @@ void declare(Options& app, RunCliOptions& options) {
         "Also write trajectories.csv. Single light: from 5 s before the green to 25 s after it. Single intersection: "
         "the first measured cycle. Networks: the whole run, or --record-from to --record-until");
     app.add("--trajectories-file", options.trajectories_file,
-            "With --trajectories: file in the results folder. A file that ends with .gz is compressed")
+            "With --trajectories: file in the results folder. A file that ends with .gz or .zst is compressed")
         .type_name("FILE")
         .show_default();
     app.add("--interval", options.interval, "With --trajectories: time between samples (default: 0.1 s)")

@@ -62,7 +62,7 @@ std::filesystem::path population_file(const std::filesystem::path& file, const S
     if (scenario.populations.size() == 1) return file;
     std::filesystem::path stem = file.stem();
     std::string ending = file.extension().string();
-    if (ending == ".gz") {
+    if (ending == ".gz" || ending == ".zst") {
         ending = stem.extension().string() + ending;
         stem = stem.stem();
     }

@@ -1,4 +1,5 @@
-// A result file that is written piece by piece. A file whose name ends with ".gz" is compressed with gzip.
+// A result file that is written piece by piece. A file whose name ends with ".gz" is compressed with gzip,
+// and one that ends with ".zst" with Zstandard.
 #pragma once
 
 #include <filesystem>
@@ -27,12 +28,14 @@ public:
 
 private:
     class Compressor;
+    class GzipCompressor;
+    class ZstdCompressor;
 
     ReplacedFile file_;
     std::unique_ptr<Compressor> compressor_;  // null: the file is not compressed
 };
 
-// Writes a whole file, compressed if its name ends with ".gz". Throws InputError with path and reason on failure.
+// Writes a whole file, compressed if its name ends with ".gz" or ".zst". Throws InputError with path and reason on failure.
 void write_streamed_file(const std::filesystem::path& file, std::string_view text);
 
 }  // namespace stopline

@@ -112,6 +112,35 @@ TEST(Hcm, LanesWithoutSaturatedGreenUseTheOthers) {
     EXPECT_NEAR(rows[4].stops, 0.5, 1e-9);
 }
 
+// Vehicles arrive evenly and wait in a queue without length. With many vehicles, their delay is the closed form d1.
+TEST(Hcm, PointQueueOfEvenArrivalsHasTheUniformDelay) {
+    constexpr double kShort_s = 0.05;   // headway of the queue
+    constexpr double kArrival_s = 0.2;  // headway of the arrivals
+    HcmRecord record;
+    record.lane = 0;
+    for (int k = 0; k < 5; ++k) {
+        const double from_s = k * kCycle_s;
+        const double green_s = from_s + 30.0;
+        // Green ends 2 s, the end gain, before the last vehicle passes.
+        record.cycles.push_back({from_s, from_s + kCycle_s, green_s, from_s + 58.0});
+        record.green_starts_s.push_back(green_s);
+        double last_s = green_s;
+        for (int n = 0; n < 300; ++n) {
+            const double arrival_s = from_s + (n + 0.5) * kArrival_s;
+            const bool queues = arrival_s < last_s + kShort_s;
+            last_s = queues ? last_s + kShort_s : arrival_s;
+            record.passages.push_back({last_s, last_s - arrival_s, queues ? 1 : 0, queues});
+        }
+    }
+    const HcmRow row = rows_of({record}).front();
+    EXPECT_NEAR(row.saturation_flow_veh_h, 3600.0 / kShort_s, 1e-3);
+    EXPECT_NEAR(row.startup_lost_time_s, 0.0, 1e-6);
+    EXPECT_NEAR(row.effective_green_s, 30.0, 1e-6);
+    EXPECT_NEAR(row.saturation, 0.5, 1e-6);
+    EXPECT_NEAR(row.uniform_delay_s, 10.0, 1e-5);  // 0.5 x 60 x 0.5^2 / (1 - 0.5 x 0.5)
+    EXPECT_NEAR(row.control_delay_s, row.uniform_delay_s, 0.01 * row.uniform_delay_s);
+}
+
 // A vehicle that waits for oncoming traffic until the end of green does not shorten the effective green.
 TEST(Hcm, QueuesThatSomethingElseHoldsGiveNoEndGain) {
     HcmRecord record = saturated_lane(10);

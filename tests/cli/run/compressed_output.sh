@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Tests that stopline-run compresses each output file whose name ends with .gz, and that the text is the same as that of
+# Tests that stopline-run compresses each output file whose name ends with .gz or .zst, and that the text is the same as that of
 # the plain file. Two populations write two files of each kind. Other endings stay plain.
 set -u
 
@@ -35,6 +35,16 @@ for name in {fcd,trips,loops}.{CTG-Ref,CDG}.xml trajectories.{CTG-Ref,CDG}.csv; 
     cmp -s <(without_names "$work/plain/$name") <(without_names "$work/text") || fail "$name.gz has another text"
     [ -e "$work/compressed/$name" ] && fail "$name is there as well as $name.gz"
     gzip -t "$work/plain/$name" 2>"$work/stderr" && fail "$name is compressed"
+done
+
+# Zstandard: the test skips the comparison of the text if no program can decompress it.
+run_with zstd ".zst"
+for name in {fcd,trips,loops}.{CTG-Ref,CDG}.xml trajectories.{CTG-Ref,CDG}.csv; do
+    [ "$(head -c 4 "$work/zstd/$name.zst" | od -An -tx1 | tr -d ' ')" = 28b52ffd ] || fail "$name.zst is not compressed"
+    [ -e "$work/zstd/$name" ] && fail "$name is there as well as $name.zst"
+    command -v zstd >/dev/null || continue
+    zstd -qdc "$work/zstd/$name.zst" >"$work/text" || fail "$name.zst is damaged"
+    cmp -s <(without_names "$work/plain/$name") <(without_names "$work/text") || fail "$name.zst has another text"
 done
 
 exit $((failures > 0))

@@ -66,15 +66,26 @@ TEST(HcmRun, CapacityBelowSaturationPredictsTheSaturatedCount) {
     EXPECT_NEAR(below.capacity_veh_h, above.passed_veh_h, 0.03 * above.passed_veh_h);
 }
 
-TEST(HcmRun, DelayOfEvenArrivalsIsTheUniformDelay) {
-    for (const char* const inflow : {"300 veh/h", "500 veh/h", "700 veh/h"}) {
+// The formula counts the delay at the stop line. Measured delay includes the acceleration behind the line, which takes up
+// to 4 s for the first vehicle of a queue.
+TEST(HcmRun, DelayOfEvenArrivalsIsTheUniformDelayAndTheAcceleration) {
+    for (const char* const inflow : {"500 veh/h", "700 veh/h"}) {
         const HcmRow row = run_population(hcm_light(inflow), 0).hcm.at(0);
-        std::printf("%s: X %.3f measured %.2f s, d1 %.2f s, stops %.3f, queue %.1f veh, formula %.1f veh\n", inflow,
-                    row.saturation, row.control_delay_s, row.uniform_delay_s, row.stops, row.back_50_veh,
-                    row.formula_back_50_veh);
         EXPECT_NEAR(row.volume_veh_h, std::stod(inflow), 0.02 * std::stod(inflow));
-        EXPECT_NEAR(row.control_delay_s, row.uniform_delay_s, 0.05 * row.uniform_delay_s) << inflow;
+        EXPECT_GT(row.control_delay_s, row.uniform_delay_s) << inflow;
+        EXPECT_LT(row.control_delay_s, row.uniform_delay_s + 2.5) << inflow;
+        EXPECT_NEAR(row.initial_queue_delay_s, 0.0, 1e-9);
     }
+}
+
+// Without five vehicles in a queue there is no saturation flow, so there is no capacity.
+TEST(HcmRun, ShortQueuesHaveNoCapacity) {
+    const HcmRow row = run_population(hcm_light("300 veh/h"), 0).hcm.at(0);
+    EXPECT_EQ(row.discharge.saturated_greens, 0);
+    EXPECT_TRUE(std::isnan(row.capacity_veh_h));
+    EXPECT_TRUE(std::isnan(row.formula_delay_s()));
+    EXPECT_GT(row.control_delay_s, 0.0);
+    EXPECT_EQ(row.formula_level, '-');
 }
 
 TEST(HcmRun, DoesNotChangeTheRun) {
@@ -100,8 +111,10 @@ TEST(HcmRun, DoesNotChangeTheRun) {
 
 TEST(HcmRun, CoversTheLanesOfNetworksAndActuatedSignals) {
     const Scenario scenario = hcm_scenario(
-        "network: {kind: grid, grid: {columns: 2, rows: 1}}, signal: {controller: actuated, first_green: 1 s, green: 20 "
-        "s}, duration: 900 s, measure: {window: 800 s, hcm: on}, demand: {kind: rate, inflow: 400 veh/h}");
+        "network: {kind: grid, grid: {columns: 2, rows: 1}}, signal: {first_green: 1 s, controller: actuated, phases: "
+        "[{protected: [west_straight, east_straight], permissive: [west_left, east_left, west_right, east_right], green: 20 "
+        "s}, {protected: [south_straight, north_straight], permissive: [south_left, north_left, south_right, "
+        "north_right], green: 20 s}]}, duration: 900 s, measure: {window: 800 s, hcm: on}, demand: {kind: rate, inflow: 400 veh/h}");
     const NetworkResult result = run_network(scenario, 0);
     Scenario off = scenario;
     off.measure.hcm = "off";
