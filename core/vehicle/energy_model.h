@@ -55,10 +55,10 @@ struct PowertrainReading {
 FinishedStep finished_step(const PowertrainTables& tables, const PowertrainReading& before,
                            const PowertrainReading& after, double sine, double dt);
 
-// Mesoscale mode: estimates load and work from the speeds before and after the step, by inverse dynamics. `state` has the
-// speed before the step, the gear and the time since the last gear change. The function sets them to those after the
-// step. The gearbox shifts as in full dynamics, but without interruption of the torque. Engine drag comes before the
-// brake.
+// Mesoscale mode: estimates load and work from the speeds before and after the step, by inverse dynamics. `state` has
+// the speed before the step, the gear and the time since the last gear change. The function sets them to those after
+// the step. The gearbox shifts as in full dynamics, but without interruption of the torque. Engine drag comes before
+// the brake.
 FinishedStep estimated_step(const PowertrainTables& tables, double after_mps, double sine, double dt,
                             PowertrainReading& state);
 // Returns the state for the first estimated step of a vehicle with this speed.

@@ -92,9 +92,9 @@ TEST_P(FuelOfItsClass, IsWithinFivePercent) {
     expect_g(estimate(car, nedc_trace()).use.fuel_g, GetParam().nedc_g);
 }
 
-// The limits are the smallest and the largest results of the classes above and of HBEFA4/PC_petrol_Euro-4, with steps of
-// 1 s: 18.9 to 23.9 g in a start of 17 samples over 163.7 m, 33.4 to 40.7 g in 61 s at 50 km/h, 9.7 to 30.1 g in 61 s at
-// rest, and 194.9 to 221.5 g/km CO2 in the NEDC.
+// The limits are the smallest and the largest results of the classes above and of HBEFA4/PC_petrol_Euro-4, with steps
+// of 1 s: 18.9 to 23.9 g in a start of 17 samples over 163.7 m, 33.4 to 40.7 g in 61 s at 50 km/h, 9.7 to 30.1 g in
+// 61 s at rest, and 194.9 to 221.5 g/km CO2 in the NEDC.
 TEST_P(FuelOfItsClass, IsWithinTheSpreadOfTheModels) {
     const Car car(GetParam().vehicle);
     const auto expect_between = [](double value, double low, double high) {

@@ -52,7 +52,7 @@ void SafetyMeter::observe(const State& state, int lane, int slot) {
     if (speed_mps >= kStoppedSpeed_mps) add_following(state, lane, slot);
 }
 
-// The jolt in which a vehicle comes to rest is no sample, because the model holds the vehicle from one step to the next.
+// The jolt in which a vehicle comes to rest is no sample, because the model stops the vehicle within a step.
 void SafetyMeter::add_motion(Track& track, double speed_mps) {
     const auto add = [&](SafetyMeasure measure, double value) {
         result_.distributions[at(static_cast<int>(measure))].add(value);

@@ -1,5 +1,5 @@
-// Measures comfort and surrogate safety of a run (measure.surrogate_safety). The meter samples the state every 0.1 s and
-// changes nothing. The leader of a vehicle is the vehicle ahead on its lane. The first vehicle of a lane follows the
+// Measures comfort and surrogate safety of a run (measure.surrogate_safety). The meter samples the state every 0.1 s.
+// It changes nothing. The leader of a vehicle is the vehicle ahead on its lane. The first vehicle of a lane has the
 // leader that its perception finds beyond the lane, within the range of the radar. A leader that still merges into the
 // path counts only when its rear is on the path, because right of way keeps the vehicles apart until then.
 #pragma once

@@ -89,9 +89,9 @@ struct FollowingState {
 // Returns the time until contact at constant speeds. Infinite if the vehicle does not approach its leader.
 double time_to_collision_s(const FollowingState& state);
 
-// Returns the constant deceleration with which the vehicle just avoids its leader, if the leader keeps its acceleration,
-// or stops with it; 0 if it need not brake (Brannstrom, Sjoberg and Coelingh 2008). The brake threat number is this
-// deceleration over the available one.
+// Returns the constant deceleration with which the vehicle just avoids its leader. The leader keeps its acceleration,
+// or stops with it. The result is 0 if the vehicle need not brake. The brake threat number is this deceleration over
+// the available one (Brannstrom, Sjoberg and Coelingh 2008).
 double required_deceleration_mps2(const FollowingState& state);
 
 }  // namespace stopline

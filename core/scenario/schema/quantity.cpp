@@ -99,8 +99,8 @@ std::string with_unit(const std::string& number, const Unit& in) {
 }  // namespace
 
 const std::vector<Unit>& units() {
-    // The first unit of each dimension is the SI unit, rpm for engine speeds, or g/h for fuel rates. exact_text() relies
-    // on this order.
+    // The first unit of each dimension is the SI unit, rpm for engine speeds, or g/h for fuel rates. exact_text()
+    // relies on this order.
     static const std::vector<Unit> all{
         {"", Dimension::number},
         {"%", Dimension::number, 1.0, 100.0},

@@ -30,8 +30,7 @@ TEST(RequiredDeceleration, BehindASteadyLeaderHasAClosedForm) {
     EXPECT_DOUBLE_EQ(required_deceleration_mps2({2.0, 10.0, 10.0, -4.0}), 100.0 / (2.0 * (2.0 + 12.5)));
 }
 
-// Returns the smallest gap while the follower brakes with a constant deceleration until it is not faster than its leader
-// and the leader does not brake any more.
+// Returns the smallest gap until the follower stops that brakes with a constant deceleration.
 double smallest_gap_m(FollowingState s, double deceleration_mps2) {
     constexpr double kStep_s = 0.002;
     double smallest_m = s.net_gap_m;
