@@ -94,7 +94,7 @@ HcmRow measured_row(const LaneGraph& graph, const HcmRecord& record, std::span<c
     for (const HcmPassage& passage : record.passages) {
         if (!whole.contains(passage.time_s)) continue;
         ++passed;
-        row.control_delay_s += passage.delay_s;
+        row.control_delay_s += std::max(passage.delay_s, 0.0);
         row.stops += passage.stops;
     }
     row.control_delay_s = passed > 0 ? row.control_delay_s / passed : kNan;

@@ -35,7 +35,8 @@ private:
     std::unique_ptr<Compressor> compressor_;  // null: the file is not compressed
 };
 
-// Writes a whole file, compressed if its name ends with ".gz" or ".zst". Throws InputError with path and reason on failure.
+// Writes a whole file, compressed if its name ends with ".gz" or ".zst". Throws InputError with path and reason on
+// failure.
 void write_streamed_file(const std::filesystem::path& file, std::string_view text);
 
 }  // namespace stopline

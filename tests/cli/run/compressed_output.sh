@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Tests that stopline-run compresses each output file whose name ends with .gz or .zst, and that the text is the same as that of
-# the plain file. Two populations write two files of each kind. Other endings stay plain.
+# Tests that stopline-run compresses each output file whose name ends with .gz or .zst, and that the text is the same as
+# that of the plain file. Two populations write two files of each kind. Other endings stay plain.
 set -u
 
 . "$STOPLINE_SOURCE/tests/tools/cli.sh"

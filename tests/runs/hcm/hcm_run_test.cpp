@@ -66,8 +66,8 @@ TEST(HcmRun, CapacityBelowSaturationPredictsTheSaturatedCount) {
     EXPECT_NEAR(below.capacity_veh_h, above.passed_veh_h, 0.03 * above.passed_veh_h);
 }
 
-// The formula counts the delay at the stop line. Measured delay includes the acceleration behind the line, which takes up
-// to 4 s for the first vehicle of a queue.
+// The formula counts the delay at the stop line. Measured delay includes the acceleration behind the line, which takes
+// up to 4 s for the first vehicle of a queue.
 TEST(HcmRun, DelayOfEvenArrivalsIsTheUniformDelayAndTheAcceleration) {
     for (const char* const inflow : {"500 veh/h", "700 veh/h"}) {
         const HcmRow row = run_population(hcm_light(inflow), 0).hcm.at(0);
@@ -125,7 +125,7 @@ TEST(HcmRun, CoversTheLanesOfNetworksAndActuatedSignals) {
         if (row.scope != HcmRow::Scope::lane) continue;
         EXPECT_GT(row.cycles, 3) << row.name;
         EXPECT_LT(row.green_s, row.cycle_s) << row.name;
-        EXPECT_GT(row.control_delay_s, 0.0) << row.name;
+        EXPECT_GE(row.control_delay_s, 0.0) << row.name;
         EXPECT_LT(row.control_delay_s, 100.0) << row.name;
         EXPECT_NE(row.level, '-') << row.name;
     }
