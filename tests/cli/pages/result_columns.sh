@@ -45,7 +45,7 @@ run() {
 }
 
 brief=(--set 'populations=[CDG]' --set measure.baseline=CDG --trajectories --interval "10 s"
-    --set measure.departure_delay=on --set measure.energy=on --set measure.surrogate_safety=on)
+    --set measure.departure_delay=on --set measure.energy=on --set measure.surrogate_safety=on --set measure.hcm=on)
 network=("${brief[@]}" --set "duration=130 s" --set "measure.window=60 s")
 run grid "$STOPLINE_SOURCE/scenarios/grid.yaml" "${network[@]}" --set network.grid.columns=2 --set network.grid.rows=2 \
     --set "measure.time_space=30 s"
@@ -92,7 +92,7 @@ END
     check "$work/sweeps/${name}_means.csv" sweep/NAME_means.csv population entering_kmh
 }
 network=(--set 'populations=[CDG]' --set measure.baseline=CDG --set "duration=130 s" --set "measure.window=60 s"
-    --set measure.departure_delay=on --set measure.energy=on --set measure.surrogate_safety=on)
+    --set measure.departure_delay=on --set measure.energy=on --set measure.surrogate_safety=on --set measure.hcm=on)
 sweep of_grid "$STOPLINE_SOURCE/scenarios/grid.yaml" "${network[@]}" --set network.grid.columns=2 --set network.grid.rows=2
 sweep of_streets "$STOPLINE_SOURCE/scenarios/berlin.yaml" "${network[@]}" --set driver.lane_change.gap_opening=cooperative \
     --set driver.speed_advice.mode=glosa
