@@ -189,7 +189,8 @@ std::string column_of(const CsvTable& results, const DrawnMetric& metric) {
     return found == results.columns.rend() ? "" : *found;
 }
 
-// Returns the metrics of a group that the figures of sweeps show, or nothing if the table does not have all of them.
+// Returns the metrics of a group that the figures of sweeps show. Returns nothing if the table lacks one that all
+// scenarios have.
 std::vector<SweepMetric> metrics_of(const MetricGroup& group, const CsvTable& results) {
     std::vector<SweepMetric> metrics;
     // Only tables of networks have the column `stability`. Without it, the table belongs to another group.
@@ -198,6 +199,7 @@ std::vector<SweepMetric> metrics_of(const MetricGroup& group, const CsvTable& re
         const SweepPanels& panels = metric.figure.sweep;
         if (!panels.exist()) continue;
         const std::string column = column_of(results, metric);
+        if (column.empty() && metric.is_optional) continue;
         if (column.empty()) return {};
         const std::string name = panels.name.empty() ? metric.axis(column) : std::string(panels.name);
         metrics.push_back({column, name, std::string(metric.unit), std::string(panels.change), panels.better});

@@ -14,9 +14,9 @@ namespace stopline {
 // Returns the name of a group of runs, such as "with 15 CDG".
 using NameOfRuns = std::function<std::string(const Scenario& scenario, const std::string& population)>;
 
-// Runs the sweep scenarios/sweeps/<sweep>.yaml. Stores the mean over all runs of one name for each of the result columns.
-// The name of a measurement is the name of the column, a space and the name of the runs. The measurement "violations" is
-// the number of runs with violations.
+// Runs the sweep scenarios/sweeps/<sweep>.yaml. Stores the mean over all runs of one name for each of the result
+// columns. The name of a measurement is the name of the column, a space and the name of the runs. The measurement
+// "violations" is the number of runs with violations.
 Measurements measure_means(const ScorecardOptions& options, const char* sweep, std::span<const char* const> columns,
                            const NameOfRuns& name_of);
 

@@ -19,6 +19,7 @@ struct DrawnMetric {
     std::string_view placeholder;  // that of the family; empty: the metric has no family
     std::string_view unit;
     MetricFigure figure;
+    bool is_optional = false;  // only scenarios that ask for the metric have it
 
     // Returns true if the metric has the column, such as travel_time_94m_s.
     bool has(std::string_view name) const;

@@ -199,8 +199,8 @@ std::vector<DrawnMetric> drawn_metrics(const MetricList<Run>& metrics) {
     std::vector<DrawnMetric> drawn;
     for (const Metric<Run>& metric : metrics) {
         if (!metric.in_summary() && !metric.in_sweeps()) continue;
-        drawn.push_back(
-            {metric.column, metric.family == nullptr ? "" : metric.family->placeholder, metric.unit, metric.figure});
+        drawn.push_back({metric.column, metric.family == nullptr ? "" : metric.family->placeholder, metric.unit,
+                         metric.figure, metric.asked_for != nullptr});
     }
     return drawn;
 }
