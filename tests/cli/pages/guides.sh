@@ -7,8 +7,8 @@ set -u
 
 . "$STOPLINE_SOURCE/tests/tools/cli.sh"
 
-guides=(README.md scenarios/README.md scenarios/SWEEPS.md scenarios/CALIBRATION.md scenarios/SUMO.md data/paper/README.md
-    data/README.md core/README.md tests/README.md)
+guides=(README.md scenarios/README.md scenarios/SWEEPS.md scenarios/CALIBRATION.md scenarios/SUMO.md scenarios/HCM.md
+    data/paper/README.md data/README.md core/README.md tests/README.md)
 
 # can_run PROGRAM: succeeds if PROGRAM is installed; for mpirun the programs must also be built with MPI
 can_run() {
