@@ -50,7 +50,7 @@ struct PhasePlan {
     std::vector<PhaseProgramme> programmes;  // in the order of from_tick
     std::int64_t clock_ticks = 0;            // time of day at tick 0
     std::int64_t day_ticks = 0;
-    RingPlan rings;  // for controllers with rings, whose phases do not run one after the other
+    RingPlan rings;  // for controllers with rings; streets set only RingPhase::protected_groups
 
     bool empty() const { return phases.empty(); }
     // Returns the index of the programme that is in force at a tick of the run.

@@ -30,6 +30,8 @@ struct ShownLight {
     int phase = -1;  // phase of its signal at the end
     double start_s = 0.0;
     double length_s = 0.0;
+    // For this time at its end, a vehicle has stood before a red light of the intersection.
+    double called_s = 0.0;
 };
 
 // Steps a simulation and records each light that has ended. Fails if two lights contradict each other.
@@ -38,7 +40,11 @@ public:
     explicit LightRecord(const Scenario& scenario) : model_(build_model(scenario, 0)), simulation_(model_) {}
 
     void run(double end_s) {
+        std::vector<double> uncalled_s(model_.signals.size());  // latest time without a vehicle before a red light
         while (simulation_.time_s() < end_s) {
+            for (std::size_t signal = 0; signal < uncalled_s.size(); ++signal) {
+                if (!has_call(signal)) uncalled_s[signal] = simulation_.time_s();
+            }
             const std::vector<Light> before = signals().lights;
             const std::vector<std::int64_t> since = signals().since_tick;
             const std::vector<int> phases = signals().phase;
@@ -47,7 +53,8 @@ public:
                 if (signals().lights[group] == before[group]) continue;
                 const double start_s = model_.time_s(since[group]);
                 shown.push_back({static_cast<int>(group), before[group], phases[group / kGroups], start_s,
-                                 model_.time_s(signals().since_tick[group]) - start_s});
+                                 model_.time_s(signals().since_tick[group]) - start_s,
+                                 model_.time_s(signals().since_tick[group]) - uncalled_s[group / kGroups]});
             }
             for (std::size_t signal = 0; signal < phases.size(); ++signal) check_lights(signal);
         }
@@ -74,6 +81,15 @@ public:
     std::vector<ShownLight> shown;
 
 private:
+    bool has_call(std::size_t signal) const {
+        const std::vector<SignalDetector>& detectors = signals().detectors[signal];
+        return std::any_of(detectors.begin(), detectors.end(), [&](const SignalDetector& detector) {
+            const std::size_t group = signal * kGroups + at(detector.group);
+            const bool is_at_line = detector.to_line_m > 0.0 && detector.to_line_m < 4.0;  // signal.stop_detector
+            return is_at_line && detector.is_occupied && signals().lights[group] == Light::red;
+        });
+    }
+
     void check_lights(std::size_t signal) const {
         const auto light = [&](int group) { return signals().lights[signal * kGroups + at(group)]; };
         const bool minor = light(2) != Light::red;
@@ -81,24 +97,29 @@ private:
         ASSERT_FALSE(minor && light(1) != Light::red) << signal << " at " << simulation_.time_s() << " s";
         // A protected left turn has green alone.
         const bool has_left = model_.signals[signal].phases.phases.size() == 3;
-        if (has_left && signals().phase[signal] == 1) ASSERT_EQ(light(0), Light::red) << simulation_.time_s() << " s";
+        const bool is_protected = has_left && signals().phase[signal] == 1;
+        ASSERT_FALSE(is_protected && light(0) != Light::red) << simulation_.time_s() << " s";
     }
 
     Model model_;
     Simulation simulation_;
 };
 
-// Checks the lengths of greens, yellows and reds. All approaches of Berlin are saturated, so each phase has a call soon
-// after the network has filled, and no green lasts longer than its maximum.
-void check_lengths(const LightRecord& record, double filled_s) {
+// Checks the lengths of greens, yellows and reds. The maximum of a green counts from the first call of another phase.
+// Returns the number of greens that had a call for longer than half of their maximum.
+int check_lengths(const LightRecord& record) {
     constexpr double kTolerance_s = 1e-6;
+    constexpr double kTicks_s = 0.2;  // the test sees detectors after the step, the controller before
+    int long_calls = 0;
     for (const ShownLight& one : record.of(Light::green)) {
         const SignalPlan& plan = record.plan(one.group / kGroups);
         const SignalPhase& phase = plan.phases.phases[at(one.phase)];
         const double min_s = record.model().time_s(phase.min_green_ticks);
         const double max_s = record.model().time_s(std::max(phase.max_green_ticks, phase.min_green_ticks));
         EXPECT_GE(one.length_s, min_s - kTolerance_s) << one.group << " at " << one.start_s;
-        if (one.start_s > filled_s) EXPECT_LE(one.length_s, max_s + kTolerance_s) << one.group << " at " << one.start_s;
+        const double called_s = std::min(one.called_s, one.length_s);
+        EXPECT_LE(called_s, max_s + kTicks_s) << one.group << " at " << one.start_s;
+        long_calls += called_s > 0.5 * max_s ? 1 : 0;
     }
     for (const ShownLight& one : record.of(Light::yellow)) EXPECT_NEAR(one.length_s, 3.0, kTolerance_s) << one.group;
     // Between the yellow of a group and the next green of the intersection lies the clearance, 8 s or more.
@@ -109,12 +130,13 @@ void check_lengths(const LightRecord& record, double filled_s) {
             EXPECT_GE(green.start_s, end_s + 8.0 - kTolerance_s) << yellow.group << " at " << end_s;
         }
     }
+    return long_calls;
 }
 
 TEST(ActuatedStreets, KeepMinimumMaximumYellowAndClearance) {
     LightRecord record(berlin({}));
     record.run(400.0);
-    check_lengths(record, 120.0);
+    EXPECT_GT(check_lengths(record), 30);
     EXPECT_TRUE(record.state().records.violations.none());
     EXPECT_GT(record.state().records.exited, 300);
     for (int signal = 0; signal < 10; ++signal) {
@@ -127,7 +149,7 @@ TEST(ActuatedStreets, KeepMinimumMaximumYellowAndClearance) {
 TEST(ActuatedStreets, KeepMinimumMaximumYellowAndClearanceInFullDynamics) {
     LightRecord record(berlin({"fidelity=full", "duration=150 s", "measure.window=60 s"}));
     record.run(150.0);
-    check_lengths(record, 150.0);
+    EXPECT_GT(check_lengths(record), 10);
     EXPECT_TRUE(record.state().records.violations.none());
     EXPECT_GT(record.of(Light::green).size(), 30u);
 }
