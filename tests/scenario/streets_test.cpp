@@ -121,10 +121,11 @@ TEST(Streets, CanHaveActuatedSignals) {
                                  "' cannot run the programmes of streets (allowed: fixed_time, actuated)"));
     }
     EXPECT_TRUE(contains(with({"signal.stop_detector=2 m"}), "'signal.stop_detector' applies only if controller is"));
-    for (const std::string time : {"first_green", "green", "cross_green", "yellow", "all_red", "offset", "cycle"}) {
+    for (const std::string time : {"first_green", "green", "cross_green", "yellow", "all_red", "offset"}) {
         EXPECT_TRUE(contains(with({actuated, "signal." + time + "=44 s"}),
                              "field 'signal." + time + "': has no effect on streets"));
     }
+    EXPECT_TRUE(contains(with({actuated, "signal.cycle=99 s"}), "field 'signal.cycle': has no effect on streets"));
     EXPECT_TRUE(contains(with({actuated, "signal.phases=[{protected: [west_left], green: 8 s}]"}),
                          "field 'signal.phases': is not for streets, whose phases follow from"));
 }
