@@ -38,71 +38,67 @@ Model model_of(const Scenario& scenario, std::size_t population) {
                                                     : build_model(scenario, population);
 }
 
-// Arrays of one value for each vehicle, in the order of the lanes.
+// Makes arrays with one value for each vehicle, in the order of the lanes.
 class VehicleColumns {
 public:
     explicit VehicleColumns(const Simulation& simulation) : model_(simulation.model()), state_(simulation.state()) {
         for (const LaneBlock& block : state_.blocks) vehicles_ += static_cast<py::ssize_t>(block.count);
-        for (py::array_t<int>* array : {&id_, &lane_, &policy_, &leader_id_}) *array = py::array_t<int>(vehicles_);
-        for (py::array_t<double>* array : {&position_, &speed_, &acceleration_, &length_, &gap_, &leader_speed_,
-                                           &leader_acceleration_, &speed_limit_}) {
-            *array = py::array_t<double>(vehicles_);
-        }
-        py::ssize_t k = 0;
+        id_ = add<int>("id"), lane_ = add<int>("lane"), policy_ = add<int>("policy");
+        position_m_ = add<double>("position_m"), speed_mps_ = add<double>("speed_mps");
+        acceleration_mps2_ = add<double>("acceleration_mps2"), length_m_ = add<double>("length_m");
+        speed_limit_mps_ = add<double>("speed_limit_mps"), leader_id_ = add<int>("leader_id");
+        gap_m_ = add<double>("gap_m"), leader_speed_mps_ = add<double>("leader_speed_mps");
+        leader_acceleration_mps2_ = add<double>("leader_acceleration_mps2");
+        std::size_t k = 0;
         for (int lane = 0; lane < static_cast<int>(state_.blocks.size()); ++lane) {
             const LaneBlock& block = state_.blocks[at(lane)];
             for (int slot = block.first; slot < block.past_last(); ++slot) set(k++, lane, slot);
         }
     }
 
-    py::dict dictionary() const {
-        py::dict columns;
-        columns["id"] = id_;
-        columns["lane"] = lane_;
-        columns["policy"] = policy_;
-        columns["position_m"] = position_;
-        columns["speed_mps"] = speed_;
-        columns["acceleration_mps2"] = acceleration_;
-        columns["length_m"] = length_;
-        columns["speed_limit_mps"] = speed_limit_;
-        columns["leader_id"] = leader_id_;
-        columns["gap_m"] = gap_;
-        columns["leader_speed_mps"] = leader_speed_;
-        columns["leader_acceleration_mps2"] = leader_acceleration_;
-        return columns;
-    }
+    const py::dict& dictionary() const { return columns_; }
 
 private:
-    void set(py::ssize_t k, int lane, int slot) {
+    // Adds an array to the dictionary and returns its memory.
+    template <class Number>
+    Number* add(const char* name) {
+        py::array_t<Number> array(vehicles_);
+        columns_[name] = array;
+        return array.mutable_data();
+    }
+
+    void set(std::size_t k, int lane, int slot) {
         const VehicleArrays& v = state_.vehicles;
         const std::size_t i = at(slot);
-        id_.mutable_at(k) = v.id[i];
-        lane_.mutable_at(k) = lane;
-        policy_.mutable_at(k) = v.policy[i];
-        position_.mutable_at(k) = v.position_m[i];
-        speed_.mutable_at(k) = v.speed_mps[i];
-        acceleration_.mutable_at(k) = v.acceleration_mps2[i];
-        length_.mutable_at(k) = v.length_m[i];
-        speed_limit_.mutable_at(k) = state_.plan.free_speed_mps(lane, v.policy[i]);
+        id_[k] = v.id[i];
+        lane_[k] = lane;
+        policy_[k] = v.policy[i];
+        position_m_[k] = v.position_m[i];
+        speed_mps_[k] = v.speed_mps[i];
+        acceleration_mps2_[k] = v.acceleration_mps2[i];
+        length_m_[k] = v.length_m[i];
+        speed_limit_mps_[k] = state_.plan.free_speed_mps(lane, v.policy[i]);
         const bool is_first = slot == state_.blocks[at(lane)].first;
         const LeaderAhead ahead = is_first ? leader_ahead(state_, lane, slot, model_.common_driver().cacc.radar_range_m)
                                            : LeaderAhead{slot - 1, 0.0};
         const bool has_leader = ahead.slot >= 0;
         const std::size_t j = has_leader ? at(ahead.slot) : 0;
-        leader_id_.mutable_at(k) = has_leader ? v.id[j] : -1;
-        gap_.mutable_at(k) =
-            has_leader ? ahead.lane_start_m + v.position_m[j] - static_cast<double>(v.length_m[j]) - v.position_m[i]
-                       : kNan;
-        leader_speed_.mutable_at(k) = has_leader ? v.speed_mps[j] : kNan;
-        leader_acceleration_.mutable_at(k) = has_leader ? static_cast<double>(v.acceleration_mps2[j]) : kNan;
+        leader_id_[k] = has_leader ? v.id[j] : -1;
+        gap_m_[k] = has_leader
+                        ? ahead.lane_start_m + v.position_m[j] - static_cast<double>(v.length_m[j]) - v.position_m[i]
+                        : kNan;
+        leader_speed_mps_[k] = has_leader ? v.speed_mps[j] : kNan;
+        leader_acceleration_mps2_[k] = has_leader ? static_cast<double>(v.acceleration_mps2[j]) : kNan;
     }
 
     const Model& model_;
     const State& state_;
     py::ssize_t vehicles_ = 0;
-    py::array_t<int> id_, lane_, policy_, leader_id_;
-    py::array_t<double> position_, speed_, acceleration_, length_, gap_, leader_speed_, leader_acceleration_,
-        speed_limit_;
+    py::dict columns_;
+    int *id_ = nullptr, *lane_ = nullptr, *policy_ = nullptr, *leader_id_ = nullptr;
+    double *position_m_ = nullptr, *speed_mps_ = nullptr, *acceleration_mps2_ = nullptr, *length_m_ = nullptr;
+    double *speed_limit_mps_ = nullptr, *gap_m_ = nullptr, *leader_speed_mps_ = nullptr;
+    double* leader_acceleration_mps2_ = nullptr;
 };
 
 // A simulation that Python steps. It owns copies of all that the simulation refers to.
