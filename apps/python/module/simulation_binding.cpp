@@ -42,13 +42,6 @@ Model model_of(const Scenario& scenario, std::size_t population) {
 class VehicleColumns {
 public:
     explicit VehicleColumns(const Simulation& simulation) : model_(simulation.model()), state_(simulation.state()) {
-        for (const LaneBlock& block : state_.blocks) vehicles_ += static_cast<py::ssize_t>(block.count);
-        id_ = add<int>("id"), lane_ = add<int>("lane"), policy_ = add<int>("policy");
-        position_m_ = add<double>("position_m"), speed_mps_ = add<double>("speed_mps");
-        acceleration_mps2_ = add<double>("acceleration_mps2"), length_m_ = add<double>("length_m");
-        speed_limit_mps_ = add<double>("speed_limit_mps"), leader_id_ = add<int>("leader_id");
-        gap_m_ = add<double>("gap_m"), leader_speed_mps_ = add<double>("leader_speed_mps");
-        leader_acceleration_mps2_ = add<double>("leader_acceleration_mps2");
         std::size_t k = 0;
         for (int lane = 0; lane < static_cast<int>(state_.blocks.size()); ++lane) {
             const LaneBlock& block = state_.blocks[at(lane)];
@@ -59,6 +52,11 @@ public:
     const py::dict& dictionary() const { return columns_; }
 
 private:
+    static py::ssize_t vehicles_of(const State& state) {
+        py::ssize_t vehicles = 0;
+        for (const LaneBlock& block : state.blocks) vehicles += static_cast<py::ssize_t>(block.count);
+        return vehicles;
+    }
     // Adds an array to the dictionary and returns its memory.
     template <class Number>
     Number* add(const char* name) {
@@ -93,12 +91,20 @@ private:
 
     const Model& model_;
     const State& state_;
-    py::ssize_t vehicles_ = 0;
+    py::ssize_t vehicles_ = vehicles_of(state_);
     py::dict columns_;
-    int *id_ = nullptr, *lane_ = nullptr, *policy_ = nullptr, *leader_id_ = nullptr;
-    double *position_m_ = nullptr, *speed_mps_ = nullptr, *acceleration_mps2_ = nullptr, *length_m_ = nullptr;
-    double *speed_limit_mps_ = nullptr, *gap_m_ = nullptr, *leader_speed_mps_ = nullptr;
-    double* leader_acceleration_mps2_ = nullptr;
+    int* id_ = add<int>("id");
+    int* lane_ = add<int>("lane");
+    int* policy_ = add<int>("policy");
+    double* position_m_ = add<double>("position_m");
+    double* speed_mps_ = add<double>("speed_mps");
+    double* acceleration_mps2_ = add<double>("acceleration_mps2");
+    double* length_m_ = add<double>("length_m");
+    double* speed_limit_mps_ = add<double>("speed_limit_mps");
+    int* leader_id_ = add<int>("leader_id");
+    double* gap_m_ = add<double>("gap_m");
+    double* leader_speed_mps_ = add<double>("leader_speed_mps");
+    double* leader_acceleration_mps2_ = add<double>("leader_acceleration_mps2");
 };
 
 // A simulation that Python steps. It owns copies of all that the simulation refers to.
