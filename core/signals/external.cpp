@@ -110,7 +110,7 @@ void request_phase(const SignalPlan& plan, std::size_t signal, int phase, Signal
 
 extern const SignalController kExternalController{
     .name = "external",
-    .meaning = "a program chooses the phases (Python module); without one, the first phase stays green",
+    .meaning = "your Python code chooses the phases; without a request, the first phase stays green",
     .parameters = {},
     .nominal_cycle = external_cycle,
     .init = start_external,

@@ -114,7 +114,7 @@ void bind_run(py::module_& module) {
         .def_property_readonly("tables", &BackgroundRun::tables,
                                "the tables by name, such as 'summary'; waits for the end")
         .def_property_readonly("state_hashes", &BackgroundRun::hashes,
-                               "hash of the final state of each population, as in provenance.json of stopline-run")
+                               "hash of the final state of each population, as in NAME.provenance.json of stopline-run")
         .def_property_readonly("passes", &BackgroundRun::passes,
                                "True if no violation has occurred and no movement starves")
         .def("__repr__", [](const BackgroundRun& run) {

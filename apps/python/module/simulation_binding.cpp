@@ -189,8 +189,9 @@ void bind_control(Bound& bound) {
     bound
         .def("set_acceleration", &SteppedSimulation::set_acceleration, py::arg("vehicles"),
              py::arg("acceleration_mps2"),
-             "Full dynamics: the requested accelerations of vehicles (ids) for all later steps. They take the place of "
-             "the gap law. The vehicles still stop at lines, yield, keep speed limits and brake in an emergency.")
+             "Full dynamics: accelerations of vehicles (ids) that replace their gap law in all later steps. They are "
+             "upper limits: the vehicles never accelerate more than in free driving, stop at lines, yield, keep speed "
+             "limits and brake in an emergency. Human drivers also keep their own distance.")
         .def("release", &SteppedSimulation::release, py::arg("vehicles"), "Gives vehicles back to their gap laws.")
         .def("set_policy", &SteppedSimulation::set_policy, py::arg("vehicles"), py::arg("policy"),
              "Changes the spacing policy of vehicles (ids). The policy must be one of `policies`. Returns how many of "

@@ -94,8 +94,9 @@ void apply_classes(const Model& model, int vehicles, const FullGroup& g) {
     }
 }
 
-// Puts the accelerations of the program (ExternalRequests) in the place of the gap laws. A desired gap far below the
-// real one makes the gap law ask for the highest acceleration, so the demand decides.
+// Replaces the gap laws by the accelerations of the program (ExternalRequests). A desired gap far below the real one
+// makes the gap law ask for the highest acceleration. The acceleration of the program then limits it, like an external
+// demand.
 void apply_external_requests(const State& state, const LaneGroup& lanes, const FullGroup& g) {
     constexpr double kNoGap_m = -1e6;
     if (state.external_requests.empty()) return;
