@@ -32,8 +32,7 @@ public:
             case ExternalInterval::initial_red:
                 return begin_green(memory_[kWantedPhase]);
             case ExternalInterval::green:
-                if (memory_[kWantedPhase] != memory_[kPresentPhase] && elapsed >= present().min_green_ticks)
-                    begin_yellow();
+                if (memory_[kWantedPhase] != memory_[kPresentPhase] && elapsed >= shortest_green()) begin_yellow();
                 return;
             case ExternalInterval::yellow:
                 if (elapsed >= present().yellow_ticks) begin_all_red();
@@ -47,6 +46,10 @@ public:
 private:
     const SignalPhase& present() const {
         return view_.plan().phases.phases[static_cast<std::size_t>(memory_[kPresentPhase])];
+    }
+    // Pedestrian phases, which give green to no movement, last for their green.
+    std::int64_t shortest_green() const {
+        return present().green_groups == 0 ? present().green_ticks : present().min_green_ticks;
     }
     void begin(ExternalInterval interval) {
         memory_[kPresentInterval] = static_cast<std::int64_t>(interval);

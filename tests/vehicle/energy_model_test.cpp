@@ -233,8 +233,8 @@ TEST(EstimatedStep, ClosesItsBalanceAndBrakesAfterEngineDrag) {
     EXPECT_NEAR(energy_use(*car.settings.energy, car.tables, braking.engine, 0.1).fuel_g, 0.0, 1e-12);
 }
 
-// The curves of lorries and the bus belong to the power of the engine itself. Those of the cars belong to wheel power and
-// a driveline efficiency of their source.
+// The curves of lorries and the bus belong to the power of the engine itself. Those of the cars belong to wheel power
+// and a driveline efficiency of their source.
 TEST(EnergyModel, ReadsTheCurveAtThePowerOfItsSource) {
     constexpr double kTorque_Nm = 60.0;
     constexpr double kSpeed_rpm = 1500.0;

@@ -27,9 +27,9 @@ namespace py = pybind11;
 // Runs all populations of a scenario in a thread of its own. This thread never needs Python's interpreter lock.
 class BackgroundRun {
 public:
-    BackgroundRun(Scenario scenario, int threads)
+    BackgroundRun(Scenario scenario, int wanted_threads)
         : scenario_(std::move(scenario)),
-          result_(std::async(std::launch::async, [this, threads] {
+          result_(std::async(std::launch::async, [this, threads = checked_threads(wanted_threads)] {
                       const int all = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
                       return run_report(scenario_, threads > 0 ? threads : all, [this](double share) {
                           progress_ = share;
@@ -81,6 +81,11 @@ public:
     }
 
 private:
+    static int checked_threads(int threads) {
+        if (threads < 0 || threads > kMaxThreads)
+            throw std::invalid_argument(fmt::format("{} threads: allowed are 0 to {}", threads, kMaxThreads));
+        return threads;
+    }
     const RunReport& report() const {
         try {
             return result_.get();
