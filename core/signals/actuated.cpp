@@ -8,6 +8,10 @@
 // movements belongs to the phases that give green to all of them. If there are none, it belongs to the phases that give
 // green to one of them.
 //
+// If PhasePlan::rings says which groups each phase protects, as for streets, a lane calls and extends the phases that
+// serve it best (belongs_to_phase()). It calls a phase that protects it even while it has a permissive green. A group
+// gets yellow and red between a permissive and a protected green.
+//
 // With `platoon_range`, platoons announce by V2V when their rear will pass the stop line. The green then lasts until
 // the rear of the platoon has passed, if this is before the maximum. Otherwise the green ends while the whole platoon
 // can still stop. So the green ends between two platoons, or between two mini-platoons if the length of platoons is
@@ -97,6 +101,10 @@ private:
         return own.recall == Recall::maximum ? std::max(own.max_green_ticks, own.min_green_ticks) : own.min_green_ticks;
     }
     const SignalPhase& phase(int number) const { return plan_.phases[static_cast<std::size_t>(number)]; }
+    bool knows_protection() const { return !plan_.rings.phases.empty(); }
+    std::uint64_t protected_groups(int number) const {
+        return plan_.rings.phases[static_cast<std::size_t>(number)].protected_groups;
+    }
     int present() const { return static_cast<int>(memory_[kPhase]); }
     std::int64_t& green_end(int group) { return memory_[kGreenEnds + static_cast<std::size_t>(group)]; }
 
@@ -136,7 +144,9 @@ private:
         if (shown % decision_ticks(view_.plan()) != 0) return false;
         const auto detectors = view_.detectors();
         return std::none_of(detectors.begin(), detectors.end(), [&](const SignalDetector& detector) {
-            return extends_phase(view_.plan(), detector, present()) && extends_green(detector);
+            const bool is_own = knows_protection() ? belongs_to_phase(view_.plan(), detector, present())
+                                                   : extends_phase(view_.plan(), detector, present());
+            return is_own && extends_green(detector);
         });
     }
 
@@ -161,8 +171,19 @@ private:
         memory_[kNextPhase] = next;
         begin_interval(Interval::yellow);
         show_yellow(view_, present(), next, [this](int group) { green_end(group) = view_.tick(); });
+        if (knows_protection()) end_other_protection(next);
         const std::int64_t ticks = phase(present()).yellow_ticks;
         return ticks > 0 ? view_.tick() + ticks : begin_all_red();
+    }
+
+    // Shows yellow for the green groups that only one of the present and the next phase protects.
+    void end_other_protection(int next) {
+        const std::uint64_t changing = protected_groups(present()) ^ protected_groups(next);
+        for (int group = 0; group < view_.groups(); ++group) {
+            if ((changing >> group & 1U) == 0 || view_.light(group) != Light::green) continue;
+            view_.show(group, Light::yellow);
+            green_end(group) = view_.tick();
+        }
     }
 
     std::int64_t begin_all_red() {
@@ -192,7 +213,7 @@ private:
 
     int called_in(const PhaseProgramme& programme, int first, int last) const {
         for (int number = first; number <= last; ++number) {
-            if (has_call(programme, phase(number))) return number;
+            if (has_call(programme, number)) return number;
         }
         return -1;
     }
@@ -206,10 +227,12 @@ private:
         return plan_.programmes[k];
     }
 
-    bool has_call(const PhaseProgramme& programme, const SignalPhase& called) const {
+    bool has_call(const PhaseProgramme& programme, int number) const {
+        const SignalPhase& called = phase(number);
         if (called.recall != Recall::off) return true;
         const auto calls = [&](const SignalDetector& detector) {
             if ((detector.groups & called.green_groups) == 0 || !is_waiting(detector, called)) return false;
+            if (knows_protection()) return belongs_to_phase(view_.plan(), detector, number);
             return serves_all(called, detector) || !has_full_service(programme, detector);
         };
         const auto detectors = view_.detectors();
@@ -226,7 +249,7 @@ private:
         return false;
     }
 
-    // Returns true if a vehicle on the detector's lane waits for a green that the phase would begin.
+    // Returns true if a vehicle on the detector's lane waits for a green that the phase would begin or protect.
     bool is_waiting(const SignalDetector& detector, const SignalPhase& called) const {
         std::uint64_t green_groups = 0;
         std::int64_t last_end = -1;
@@ -235,7 +258,7 @@ private:
             if (view_.light(group) == Light::green) green_groups |= std::uint64_t{1} << group;
             last_end = std::max(last_end, memory_[kGreenEnds + static_cast<std::size_t>(group)]);
         }
-        if ((detector.groups & called.green_groups & ~green_groups) == 0) return false;
+        if ((detector.groups & called.green_groups & ~green_groups) == 0 && !knows_protection()) return false;
         if (is_at(view_.plan(), detector, kStopDetector)) return detector.is_occupied;
         return is_at(view_.plan(), detector, kAdvanceDetector) && green_groups == 0 &&
                detector.last_crossing_tick > last_end;

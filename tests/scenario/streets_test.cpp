@@ -99,7 +99,7 @@ TEST(Streets, HaveTheirOwnSignalsAndTurns) {
     };
     EXPECT_EQ(with({}), "");
     EXPECT_TRUE(contains(with({"signal.green=20 s"}),
-                         "field 'signal' applies only if network.kind is approach or intersection or grid"));
+                         "field 'signal.green': has no effect on streets: the programmes of network.streets have"));
     EXPECT_TRUE(contains(with({"demand.left=5 %"}), "field 'demand.left': has no effect on streets"));
     EXPECT_TRUE(
         contains(with({"demand.cross_turns=separate"}), "field 'demand.cross_turns': has no effect on streets"));
@@ -107,6 +107,39 @@ TEST(Streets, HaveTheirOwnSignalsAndTurns) {
     EXPECT_TRUE(
         contains(with({"demand={kind: saturated, cross_inflow: 600 veh/h}"}), "field 'demand.cross_inflow': is for"));
     EXPECT_TRUE(contains(with({"network.streets.intersections[first].offset=0.005 s"}), "not a whole number of steps"));
+}
+
+TEST(Streets, CanHaveActuatedSignals) {
+    const auto with = [](const std::vector<std::string>& overrides) {
+        return input_error_of([&] { load(kStreets, overrides); });
+    };
+    const std::string actuated = "signal.controller=actuated";
+    EXPECT_EQ(with({actuated, "signal.stop_detector=2 m", "signal.advance_detector=0 m"}), "");
+    for (const std::string name : {"dual_ring", "external"}) {
+        EXPECT_TRUE(contains(with({"signal.controller=" + name}),
+                             "field 'signal.controller': '" + name +
+                                 "' cannot run the programmes of streets (allowed: fixed_time, actuated)"));
+    }
+    EXPECT_TRUE(contains(with({"signal.stop_detector=2 m"}), "'signal.stop_detector' applies only if controller is"));
+    for (const std::string time : {"first_green", "green", "cross_green", "yellow", "all_red", "offset", "cycle"}) {
+        EXPECT_TRUE(contains(with({actuated, "signal." + time + "=77 s"}),
+                             "field 'signal." + time + "': has no effect on streets"));
+    }
+    EXPECT_TRUE(contains(with({actuated, "signal.phases=[{protected: [west_left], green: 8 s}]"}),
+                         "field 'signal.phases': is not for streets, whose phases follow from"));
+    EXPECT_TRUE(contains(with({actuated, "network.streets.intersections[first].programme={major_green: 36 s, "
+                                         "minor_green: 0 s}"}),
+                         "field 'network.streets.intersections[first].programme.minor_green': 0 s gives this street no "
+                         "green"));
+}
+
+TEST(Streets, ActuatedSignalsReadBackFromTheirCanonicalText) {
+    const Scenario s = load_scenario(shipped("scenarios/berlin.yaml"), {"signal.controller=actuated"});
+    const std::string text = canonical_text(s);
+    EXPECT_TRUE(contains(text, "  controller: actuated"));
+    const Scenario reread = parse_scenario(text, "back.yaml");
+    EXPECT_EQ(canonical_text(reread), text);
+    EXPECT_NE(s.hash, load_scenario(shipped("scenarios/berlin.yaml")).hash);
 }
 
 // Compares with the rows of Table 3 in the paper: the seven steps of the signal programme, its offset, and the turn

@@ -41,8 +41,10 @@ struct NetworkKind {
     std::string_view run;
 
     // Number of signal groups of each intersection that the section `signal` describes. 0: the kind has signals of its
-    // own, and the section is not allowed.
+    // own, and the section is not allowed, unless `chooses_controller` is true.
     int signal_groups = 0;
+    // The signals of the kind have times of their own, and the section `signal` names their controller.
+    bool chooses_controller = false;
     // Vehicles follow trips from files. The section `demand` is then not allowed, and the whole network is measured.
     bool has_trips = false;
     bool has_intersections = true;   // false: a road without conflicts, on which the section `rules` has no effect

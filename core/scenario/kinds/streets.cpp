@@ -1,6 +1,7 @@
 // The kind `streets`: signalised intersections that streets join, such as those of data/berlin.
 #include <algorithm>
 #include <cstddef>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,7 @@
 #include "scenario/network_checks.h"
 #include "scenario/schema/fields.h"
 #include "scenario/turn_checks.h"
+#include "signals/street_phases.h"
 
 namespace stopline {
 
@@ -24,7 +26,13 @@ std::vector<Row<NetworkSettings>> street_fields() {
 }
 
 void add_street_signals(const Scenario& scenario, Model& model) {
+    const bool is_fixed = find_signal_controller(scenario.signal.controller).follows_programme;
     for (const StreetIntersection& node : scenario.network.streets.intersections) {
+        if (!is_fixed) {
+            model.signals.add(
+                make_street_signal_plan(scenario.signal, node, model.signals.groups(), scenario.tick_s()));
+            continue;
+        }
         const auto programmes = make_seven_steps(node.programme, node.offset_s, scenario.tick_s());
         model.signals.add(fixed_time_plan(model.signals.groups(), {programmes.begin(), programmes.end()}));
     }
@@ -60,6 +68,46 @@ double street_limit_mps(const NetworkSettings& network) {
     return highest_mps;
 }
 
+// Reports fields of the section `signal` that have no effect beside the programmes of streets.
+void refuse_signal_times(const SignalSettings& signal, Checker& check) {
+    const SignalSettings defaults;
+    const auto refuse = [&](const char* name, double value_s, double default_s) {
+        if (value_s == default_s) return;
+        check.error(std::string("signal.") + name,
+                    "has no effect on streets: the programmes of network.streets have times of their own");
+    };
+    refuse("first_green", signal.first_green_s, defaults.first_green_s);
+    refuse("green", signal.green_s, defaults.green_s);
+    refuse("cross_green", signal.cross_green_s, defaults.cross_green_s);
+    refuse("yellow", signal.yellow_s, defaults.yellow_s);
+    refuse("all_red", signal.all_red_s, defaults.all_red_s);
+    refuse("offset", signal.offset_s, defaults.offset_s);
+    refuse("cycle", signal.cycle_s, defaults.cycle_s);
+    refuse("clock", signal.clock_s, defaults.clock_s);
+}
+
+// Checks the controller of the signals. Controllers that react to traffic need a green for each street with lanes.
+void check_street_signals(const Scenario& scenario, Checker& check) {
+    const SignalSettings& signal = scenario.signal;
+    refuse_signal_times(signal, check);
+    refuse_phases(scenario, "streets, whose phases follow from the programmes of network.streets", check);
+    if (signal.controller == "fixed_time") return;
+    if (signal.controller != "actuated") {
+        return check.error("signal.controller",
+                           fmt::format("'{}' cannot run the programmes of streets (allowed: fixed_time, actuated)",
+                                       signal.controller));
+    }
+    for (const StreetIntersection& node : scenario.network.streets.intersections) {
+        for (const PhaseSettings& phase : make_street_phases(node)) {
+            if (phase.green_s > 0.0) continue;
+            const bool is_major = has_protected_green(phase, "major");
+            check.error(fmt::format("network.streets.intersections[{}].programme.{}", node.name,
+                                    is_major ? "major_green" : "minor_green"),
+                        "0 s gives this street no green: the controller actuated needs more than 0 s");
+        }
+    }
+}
+
 void check_streets(const Scenario& scenario, Checker& check) {
     refuse_cross_inflow(scenario, check);
     refuse_turns(scenario.demand, "streets, which have turn shares for each leg", check);
@@ -75,6 +123,7 @@ void check_streets(const Scenario& scenario, Checker& check) {
                     "in streets, value 'rate' needs a demand.profile, or demand.arrivals: poisson or platooned");
     }
     refuse_green_counts(scenario, check);
+    check_street_signals(scenario, check);
     check_pockets(scenario, check);
 }
 
@@ -85,7 +134,13 @@ double street_radius_m(const NetworkSettings& network, const Lane& lane) {
 
 NominalCycle street_cycle(const Scenario& scenario) {
     const StreetSettings& streets = scenario.network.streets;
-    return {streets.intersections.front().programme.cycle_s(), streets.longest_green_s()};
+    NominalCycle nominal{streets.intersections.front().programme.cycle_s(), streets.longest_green_s()};
+    if (find_signal_controller(scenario.signal.controller).follows_programme) return nominal;
+    for (const StreetIntersection& node : streets.intersections) {
+        const ProgrammeSettings phases{0.0, make_street_phases(node)};
+        nominal.cycle_s = std::max(nominal.cycle_s, phases.cycle_s());
+    }
+    return nominal;
 }
 
 // Returns the coordinate of the start of a lane, m. The axis points from the origin toward `side`.
@@ -123,6 +178,7 @@ extern const NetworkKind kStreetsKind{
     .name = "streets",
     .meaning = "signalised intersections joined by streets, from a file",
     .run = kRunAsNetwork,
+    .chooses_controller = true,
     .has_measured_area = true,
     .reports_approaches = true,
     .fields = street_fields,

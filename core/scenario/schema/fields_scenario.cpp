@@ -127,6 +127,25 @@ void check_controller(const Scenario& scenario, Checker& check) {
     }
 }
 
+// Returns null if the signals have programmes of their own and follow them. The section is then not written.
+const void* read_signal(const void* settings) {
+    const auto& scenario = *static_cast<const Scenario*>(settings);
+    const bool has_effect = network_kind(scenario.network).signal_groups > 0 ||
+                            !find_signal_controller(scenario.signal.controller).follows_programme;
+    return has_effect ? &scenario.signal : nullptr;
+}
+
+Row<Scenario> signal_section() {
+    const SectionField section{[](void* settings) -> void* { return &static_cast<Scenario*>(settings)->signal; },
+                               read_signal, signal_table, ""};
+    return Row<Scenario>{{"signal",
+                          "signal of each intersection; streets have signal programmes of their own, of which the "
+                          "section chooses the controller and its detectors; SUMO networks have signals of their own",
+                          section}}
+        .only_if("network.kind",
+                 kinds_with([](const NetworkKind& kind) { return kind.signal_groups > 0 || kind.chooses_controller; }));
+}
+
 void check_scenario(const Scenario& scenario, Checker& check) {
     const NetworkKind& kind = network_kind(scenario.network);
     kind.check(scenario, check);
@@ -231,10 +250,7 @@ const Table& scenario_table() {
                 "and allowed for no other network"),
             whole_number<&S::seed>("seed", {}, "seed of all random numbers"),
             section<&S::network>("network", network_table, "road network"),
-            section<&S::signal>(
-                "signal", signal_table,
-                "signal of each intersection; streets and SUMO networks have their own signal programmes")
-                .only_if("network.kind", kinds_with([](const NetworkKind& kind) { return kind.signal_groups > 0; })),
+            signal_section(),
             section<&S::demand>("demand", demand_table, "traffic that enters; SUMO networks have route files instead")
                 .only_if("network.kind", kinds_with([](const NetworkKind& kind) { return !kind.has_trips; })),
             section<&S::vehicle>("vehicle", vehicle_table, "vehicle and powertrain", "vehicles")
