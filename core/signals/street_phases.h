@@ -13,8 +13,8 @@ namespace stopline {
 // and minor. The protected left turns are left out if their step lasts 0 s or if no lane is for left turns only. A
 // street without approach lanes has a green for pedestrians, which is left out if it lasts 0 s.
 //
-// The maximum green of a phase is the green of its step. Yellow and all-red times are those of the steps, too. The steps
-// have no yellow after the protected left turns, so this phase takes the times of the major street.
+// The maximum green of a phase is the green of its step. Yellow and all-red times are those of the steps, too. The
+// steps have no yellow after the protected left turns, so this phase takes the times of the major street.
 std::vector<PhaseSettings> make_street_phases(const StreetIntersection& intersection);
 
 // Makes the plan of an intersection with the controller `actuated`. Its three groups are those of make_streets(). Lanes

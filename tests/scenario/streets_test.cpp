@@ -127,8 +127,9 @@ TEST(Streets, CanHaveActuatedSignals) {
     }
     EXPECT_TRUE(contains(with({actuated, "signal.phases=[{protected: [west_left], green: 8 s}]"}),
                          "field 'signal.phases': is not for streets, whose phases follow from"));
-    EXPECT_TRUE(contains(with({actuated, "network.streets.intersections[first].programme={major_green: 36 s, "
-                                         "minor_green: 0 s}"}),
+    EXPECT_TRUE(contains(with({actuated,
+                               "network.streets.intersections[first].programme={major_green: 36 s, "
+                               "minor_green: 0 s}"}),
                          "field 'network.streets.intersections[first].programme.minor_green': 0 s gives this street no "
                          "green"));
 }

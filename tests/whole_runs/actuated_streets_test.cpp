@@ -81,7 +81,9 @@ private:
         ASSERT_FALSE(minor && light(1) != Light::red) << signal << " at " << simulation_.time_s() << " s";
         // A protected left turn has green alone.
         const bool has_left = model_.signals[signal].phases.phases.size() == 3;
-        if (has_left && signals().phase[signal] == 1) ASSERT_EQ(light(0), Light::red) << simulation_.time_s() << " s";
+        if (has_left && signals().phase[signal] == 1) {
+            ASSERT_EQ(light(0), Light::red) << simulation_.time_s() << " s";
+        }
     }
 
     Model model_;
@@ -98,7 +100,9 @@ void check_lengths(const LightRecord& record, double filled_s) {
         const double min_s = record.model().time_s(phase.min_green_ticks);
         const double max_s = record.model().time_s(std::max(phase.max_green_ticks, phase.min_green_ticks));
         EXPECT_GE(one.length_s, min_s - kTolerance_s) << one.group << " at " << one.start_s;
-        if (one.start_s > filled_s) EXPECT_LE(one.length_s, max_s + kTolerance_s) << one.group << " at " << one.start_s;
+        if (one.start_s > filled_s) {
+            EXPECT_LE(one.length_s, max_s + kTolerance_s) << one.group << " at " << one.start_s;
+        }
     }
     for (const ShownLight& one : record.of(Light::yellow)) EXPECT_NEAR(one.length_s, 3.0, kTolerance_s) << one.group;
     // Between the yellow of a group and the next green of the intersection lies the clearance, 8 s or more.
