@@ -55,13 +55,12 @@ std::string population_text(const PopulationHcm& one) {
     if (!with_lanes) text += "hcm.csv lists the lanes, too.\n";
     if (oversaturated > 0) {
         text += fmt::format(
-            "OVERSATURATED: demand exceeds the capacity of {} lanes. Their delays and queues grow with the length of "
-            "the run,\nup to the length of the lane.\n",
+            "OVERSATURATED: demand exceeds the capacity of {} lanes. Their queues grow up to the length of the lane.\n"
+            "Their delays depend on the length of the run.\n",
             oversaturated);
     }
     if (saturated > 0) {
-        text +=
-            fmt::format("SATURATED: on {} further lanes a part of the queue remains after most cycles.\n", saturated);
+        text += fmt::format("SATURATED: {} lanes do not clear their queue in half of the cycles or more.\n", saturated);
     }
     return text + "\n";
 }

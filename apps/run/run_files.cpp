@@ -109,7 +109,7 @@ void add_run_files_options(Options& app, RunFilesOptions& options) {
         "NAME.POPULATION.EXT");
     file(
         "--fcd", options.fcd,
-        "Write the positions of all vehicles as SUMO floating car data (XML). A file that ends with .gz is compressed, here "
+        "Write the positions of all vehicles as SUMO floating car data (XML). A file that ends with .gz or .zst is compressed, here "
         "and below");
     time("--record-interval", options.interval, "With --record or --fcd: time between frames (default: 1 s)");
     time("--record-from", options.from, "With --record or --fcd: time of the first frame (default: 0 s)");

@@ -104,6 +104,12 @@ std::string distribution_text(const SafetyAxis& axis, const SafetyDistribution& 
     return text;
 }
 
+// Returns commands for a panel of a multiplot without data.
+std::string empty_panel_text() {
+    return "set xrange [0:1]\nset yrange [0.1:1]\nset label 1 'no samples' at graph 0.5,0.5 center\n"
+           "plot 2 notitle\nunset label 1\nset autoscale x\nset autoscale y\n";
+}
+
 Figure safety_figure(const Scenario& scenario, const std::vector<PopulationDriving>& populations) {
     Figure figure;
     figure.name = "safety";
@@ -112,8 +118,16 @@ Figure safety_figure(const Scenario& scenario, const std::vector<PopulationDrivi
     figure.body = "set multiplot layout 2,3\nset logscale y\nset format y '%g'\nset key right top samplen 2\n";
     for (std::size_t k = 0; k < kSafetyMeasures; ++k) {
         const SafetyAxis& axis = kSafetyAxes[k];
-        figure.body += fmt::format("set xlabel '{}'\nset ylabel 'time in a bin of {:g} [%]'\n{}plot ", axis.label,
+        figure.body += fmt::format("set xlabel '{}'\nset ylabel 'time in a bin of {:g} [%]'\n{}", axis.label,
                                    axis.width, k == 1 ? "unset key\n" : "");
+        const auto has_samples = [k](const PopulationDriving& p) {
+            return p.driving.safety.distributions[k].count() > 0;
+        };
+        if (std::none_of(populations.begin(), populations.end(), has_samples)) {
+            figure.body += empty_panel_text();
+            continue;
+        }
+        figure.body += "plot ";
         for (std::size_t p = 0; p < populations.size(); ++p) {
             const LineStyle style = style_of(scenario, populations[p].population);
             const std::string file = fmt::format("safety_{}_{}.dat", axis.name, p);

@@ -68,12 +68,14 @@ std::optional<Figure> hcm_figure(const std::vector<PopulationHcm>& populations) 
     }
     if (last == 0 && longest_s == 0.0) return std::nullopt;
     const double end_s = longest_s > 0.0 ? 1.1 * longest_s : 1.0;
+    if (last == 0) headways = "-1 notitle";  // no headways: an empty panel
     figure.body = fmt::format(
         "set multiplot layout 1,2\nset title 'Mean headway of all lanes'\nset xlabel 'position in the queue (1: time from the start of green)'\n"
-        "set ylabel 'headway at the stop line [s]'\nset xrange [0.5:{:.6g}]\nset yrange [0:*]\nset key top right\nplot {}\n"
+        "set ylabel 'headway at the stop line [s]'\nset xrange [0.5:{:.6g}]\nset yrange [0:{}]\nset key top right\nplot {}\n"
         "set title 'Control delay of each lane'\nset xlabel 'HCM formula [s]'\nset ylabel 'measured [s]'\n"
         "set xrange [0:{:.6g}]\nset yrange [0:{:.6g}]\nset key top left\nplot x with lines lc rgb '#888888' dt 2 title 'equal'{}\nunset multiplot\n",
-        static_cast<double>(std::max<std::size_t>(last, 1)) + 0.5, headways, end_s, end_s, delays);
+        static_cast<double>(std::max<std::size_t>(last, 1)) + 0.5, last == 0 ? "1" : "*", headways, end_s, end_s,
+        delays);
     return figure;
 }
 

@@ -14,7 +14,8 @@ namespace stopline {
 
 namespace {
 
-constexpr double kSeconds = 3600.0;  // per hour
+constexpr double kSeconds = 3600.0;        // per hour
+constexpr double kLongestHeadway_s = 4.0;  // between two vehicles of a discharging queue
 
 // Returns the cycles that lie within the window.
 std::span<const HcmCycle> cycles_within(const HcmRecord& record, const TimeWindow& window) {
@@ -35,17 +36,22 @@ LaneDischarge discharge_of(const LaneGraph& graph, const HcmRecord& record, cons
         const auto later = std::upper_bound(record.green_starts_s.begin(), record.green_starts_s.end(), time_s);
         return later == record.green_starts_s.begin() ? -1.0 : *std::prev(later);
     };
-    return discharge(graph, line, crossings, window, latest_green_s, cycle_s,
-                     [&](int k) { return record.passages[at(k)].has_queued; })
-        .lanes[0];
+    // A vehicle that follows after a longer headway has joined the queue after its discharge.
+    const auto is_in_queue = [&](int k) {
+        const HcmPassage& passage = record.passages[at(k)];
+        if (!passage.has_queued || k == 0) return passage.has_queued;
+        const double previous_s = record.passages[at(k - 1)].time_s;
+        const bool is_first = previous_s < latest_green_s(0, passage.time_s);
+        return is_first || passage.time_s - previous_s <= kLongestHeadway_s;
+    };
+    return discharge(graph, line, crossings, window, latest_green_s, cycle_s, is_in_queue).lanes[0];
 }
 
 // Measures the mean time from the end of green to the last passage of a queued vehicle, over the greens for which the
 // queue lasts. It is below 0 if the last vehicle passes before the end of green.
 void measure_end_gain(std::span<const HcmCycle> cycles, const std::vector<HcmPassage>& passages, HcmRow& row) {
-    // A queue whose last vehicle passes earlier than this before the end of green was held by something else, such as
-    // oncoming traffic.
-    constexpr double kLongestHeadway_s = 4.0;
+    // A queue whose last vehicle passes earlier than kLongestHeadway_s before the end of green was held by something
+    // else, such as oncoming traffic.
     double sum_s = 0.0;
     auto passage = passages.begin();
     for (const HcmCycle& cycle : cycles) {
@@ -135,7 +141,9 @@ void set_saturation_flows(std::vector<HcmRow>& rows) {
         const double mean_headway_s = all.saturated > 0 ? all.headways_s / all.saturated : kNan;
         const double mean_lost_s = all.saturated > 0 ? all.lost_s / all.saturated : kNan;
         row.saturation_flow_veh_h = kSeconds / (is_own ? row.discharge.saturation_headway_s : mean_headway_s);
-        row.startup_lost_time_s = is_own ? row.discharge.startup_lost_time_s : mean_lost_s;
+        // Late arrivals in short queues can make the sum of the first headways too small.
+        const double lost_s = is_own ? row.discharge.startup_lost_time_s : mean_lost_s;
+        row.startup_lost_time_s = std::isnan(lost_s) ? lost_s : std::max(lost_s, 0.0);
         if (row.used_greens >= kMinGreens) continue;
         row.end_gain_s = all.used >= kMinGreens ? all.gains_s / all.used : kEndGain_s;
     }
@@ -144,7 +152,16 @@ void set_saturation_flows(std::vector<HcmRow>& rows) {
 void apply_equations(HcmRow& row) {
     const double period_h = row.cycles * row.cycle_s / kSeconds;
     row.effective_green_s = std::clamp(row.green_s - row.startup_lost_time_s + row.end_gain_s, 0.0, row.cycle_s);
-    row.capacity_veh_h = capacity_veh_h(row.saturation_flow_veh_h, row.effective_green_s, row.cycle_s);
+    row.capacity_veh_h = row.effective_green_s > 0.0
+                             ? capacity_veh_h(row.saturation_flow_veh_h, row.effective_green_s, row.cycle_s)
+                             : kNan;
+    // Without saturated greens of its own, as with a permissive left turn, a lane whose queue never clears shows its
+    // capacity by the vehicles that pass.
+    constexpr double kNeverClears = 0.9;
+    if (row.discharge.saturated_greens < kMinGreens && row.residual_share >= kNeverClears && row.passed_veh_h > 0.0) {
+        row.capacity_veh_h = row.passed_veh_h;
+        row.effective_green_s = row.capacity_veh_h * row.cycle_s / row.saturation_flow_veh_h;
+    }
     row.saturation = row.volume_veh_h / row.capacity_veh_h;
     row.uniform_delay_s = uniform_delay_s(row.cycle_s, row.effective_green_s, row.saturation);
     row.incremental_delay_s = incremental_delay_s(row.saturation, row.capacity_veh_h, period_h);
@@ -178,14 +195,14 @@ HcmRow total_of(const std::vector<const HcmRow*>& lanes, HcmRow::Scope scope, co
     for (double* value :
          {&total.cycle_s, &total.green_s, &total.saturation_flow_veh_h, &total.startup_lost_time_s, &total.end_gain_s,
           &total.effective_green_s, &total.back_50_veh, &total.back_95_veh, &total.back_50_m, &total.back_95_m,
-          &total.formula_back_50_veh, &total.formula_back_95_veh, &total.residual_share}) {
+          &total.formula_back_50_veh, &total.formula_back_95_veh, &total.residual_share, &total.saturation}) {
         *value = kNan;
     }
     for (const HcmRow* lane : lanes) {
         total.capacity_veh_h += lane->capacity_veh_h;
         total.volume_veh_h += lane->volume_veh_h;
         total.passed_veh_h += lane->passed_veh_h;
-        total.saturation = std::max(total.saturation, lane->saturation);
+        total.saturation = std::fmax(total.saturation, lane->saturation);  // ignores lanes without a value
         total.state = std::max(total.state, lane->state);
         if (lane->passed_veh_h == 0.0) continue;
         total.control_delay_s += lane->passed_veh_h * lane->control_delay_s;

@@ -32,8 +32,7 @@ public:
             case ExternalInterval::initial_red:
                 return begin_green(memory_[kWantedPhase]);
             case ExternalInterval::green:
-                if (memory_[kWantedPhase] != memory_[kPresentPhase] && elapsed >= present().min_green_ticks)
-                    begin_yellow();
+                if (memory_[kWantedPhase] != memory_[kPresentPhase] && elapsed >= shortest_green()) begin_yellow();
                 return;
             case ExternalInterval::yellow:
                 if (elapsed >= present().yellow_ticks) begin_all_red();
@@ -47,6 +46,10 @@ public:
 private:
     const SignalPhase& present() const {
         return view_.plan().phases.phases[static_cast<std::size_t>(memory_[kPresentPhase])];
+    }
+    // Pedestrian phases, which give green to no movement, last for their green.
+    std::int64_t shortest_green() const {
+        return present().green_groups == 0 ? present().green_ticks : present().min_green_ticks;
     }
     void begin(ExternalInterval interval) {
         memory_[kPresentInterval] = static_cast<std::int64_t>(interval);
@@ -110,7 +113,7 @@ void request_phase(const SignalPlan& plan, std::size_t signal, int phase, Signal
 
 extern const SignalController kExternalController{
     .name = "external",
-    .meaning = "a program chooses the phases (Python module); without one, the first phase stays green",
+    .meaning = "your Python code chooses the phases; without a request, the first phase stays green",
     .parameters = {},
     .nominal_cycle = external_cycle,
     .init = start_external,

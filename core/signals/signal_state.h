@@ -25,7 +25,7 @@ struct SignalDetector {
     // Only for detectors of SignalPlan::lane_detectors: the phases that this detector calls and extends; bit k: phase
     // k.
     std::uint64_t phases = 0;
-    // Only if the controller hears platoons: the platoon of the lane that must stop first if green ends now
+    // Only if the controller hears platoons: the first platoon of the lane that can still stop if green ends now
     // (sim/junction/lights/announced_platoon.h). The tick at which its rear passes the line; -1: no platoon.
     std::int64_t platoon_rear_tick = -1;
     bool platoon_can_wait = true;  // the whole platoon can still wait for the next green

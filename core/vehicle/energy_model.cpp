@@ -110,8 +110,10 @@ double battery_W(const EnergySettings& s, double terminal_W) {
 double engine_fuel_g_per_h(const EnergySettings& s, const PowertrainTables& t, const EngineLoad& engine) {
     if (engine.is_at_rest || (engine.clutch_is_open && engine.torque_Nm <= 0.0)) return s.idle_fuel_g_per_h;
     const double radps = engine.rpm * kRadpsPerRpm;
-    // The curve belongs to the driveline efficiency of its source, so that equal wheel power gives equal fuel.
-    const double power_W = engine.torque_Nm * radps * (t.efficiency / s.map_efficiency);
+    // The data behind the curve may compute engine power from wheel power with a driveline efficiency of their own. The
+    // factor converts our engine power to theirs at the same wheel power.
+    const double factor = s.map_efficiency < 1.0 ? t.efficiency / s.map_efficiency : 1.0;
+    const double power_W = engine.torque_Nm * radps * factor;
     if (engine.torque_Nm >= 0.0) return fuel_g_per_h(s, power_W + s.auxiliaries_W);
     const double total_W = engine.torque_Nm * radps + s.auxiliaries_W;
     if (total_W >= 0.0) return fuel_g_per_h(s, total_W);

@@ -16,7 +16,8 @@ struct EnergySettings {
     // Combustion engine
     SampledCurve fuel_rate;        // [g/h] over engine power [W] from 0 W on
     double idle_fuel_g_per_h = 0;  // fuel rate at standstill
-    // Driveline efficiency with which the source of fuel_rate computes engine power from wheel power
+    // Driveline efficiency with which the data behind fuel_rate compute engine power from wheel power. 1: fuel_rate
+    // belongs to the power of the engine itself.
     double map_efficiency = 1.0;
     double fuel_density_kg_per_m3 = 742.0;
     double co2_per_fuel = 3.168;  // mass of CO2 over mass of fuel (no unit)

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "scenario/load_scenario.h"
+#include "scenario/scenario_text.h"
 
 namespace stopline {
 namespace {
@@ -48,6 +49,17 @@ TEST(DrivingFigures, ShowFuelAndElectricEnergyOfThePopulationsThatHaveThem) {
     EXPECT_EQ(both.body.find("energy_battery_0.dat"), std::string::npos);
 
     EXPECT_NE(driving_figures(scenario, {{"CDG", DrivingResults{}}}).at(0).nothing, "");
+}
+
+TEST(DrivingFigures, CanBeDrawnWithoutSamples) {
+    if (!gnuplot_installed()) GTEST_SKIP() << "no gnuplot";
+    const Scenario scenario = two_populations({"measure.energy=on", "measure.surrogate_safety=on"});
+    const TemporaryFolder folder;
+    for (const Figure& figure : driving_figures(scenario, {{"CDG", DrivingResults{}}, {"CTG-Ref", DrivingResults{}}})) {
+        if (figure.nothing.empty()) {
+            EXPECT_EQ(input_error_of([&] { draw(figure, folder.path()); }), "") << figure.name;
+        }
+    }
 }
 
 }  // namespace

@@ -127,12 +127,42 @@ class Steps(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "its policies are: CDG, CTG-Ref"):
             simulation.set_policy([0], "CDG-6m")
 
+    def test_one_thread_at_a_time_uses_a_simulation(self):
+        simulation = stopline.Simulation(SCENARIOS / "grid.yaml", {"duration": "3000 s", "measure.window": "1000 s"})
+        runner = threading.Thread(target=simulation.run_until, args=(600.0,))
+        runner.start()
+        refused = 0
+        while runner.is_alive():
+            try:
+                simulation.vehicles()
+            except RuntimeError:
+                refused += 1
+            time.sleep(0.001)
+        runner.join()
+        self.assertGreater(refused, 0)
+        self.assertEqual(simulation.violations["overlaps"], 0)
+
     def test_wrong_commands_are_refused(self):
+        for threads in (-1, 0, 2000):
+            with self.assertRaisesRegex(ValueError, "threads"):
+                stopline.Simulation(single_light(), threads=threads)
+        with self.assertRaisesRegex(ValueError, "threads"):
+            stopline.run(single_light(), threads=100_000)
         simulation = stopline.Simulation(single_light())
+        simulation.run_until(30.0)
         with self.assertRaisesRegex(ValueError, "has not entered"):
             simulation.set_acceleration([1000], [1.0])
         with self.assertRaisesRegex(ValueError, "2 vehicles, but 1 accelerations"):
             simulation.set_acceleration([0, 1], [1.0])
+        for ids in ([0.5], ["3"], [True], [2**40]):
+            with self.assertRaisesRegex(ValueError, "vehicle"):
+                simulation.set_acceleration(ids, [1.0])
+        with self.assertRaisesRegex(ValueError, "no policy"):
+            simulation.set_policy([], "CDG-9m")
+        with self.assertRaisesRegex(ValueError, "0 or more"):
+            simulation.step(-1)
+        with self.assertRaisesRegex(ValueError, "at most"):
+            simulation.run_until(float("nan"))
         with self.assertRaisesRegex(ValueError, "controller 'external'"):
             simulation.set_phase(0, 0)
         meso = stopline.Simulation(single_light(fidelity="meso"))
@@ -142,6 +172,17 @@ class Steps(unittest.TestCase):
 
 
 class OwnSignal(unittest.TestCase):
+    def test_pedestrian_phases_last_for_their_green(self):
+        simulation = stopline.Simulation(SCENARIOS / "phases.yaml", {"signal.controller": "external"})
+        simulation.set_phase(0, 2)
+        while simulation.phases != [2]:
+            simulation.step()
+        start_s = simulation.time_s
+        simulation.set_phase(0, 3)
+        while simulation.phases != [3]:
+            simulation.step()
+        self.assertAlmostEqual(simulation.time_s - start_s, 10.0 + 2.0, delta=0.15)
+
     def test_a_program_chooses_the_phases(self):
         simulation = stopline.Simulation(SCENARIOS / "phases.yaml", {"signal.controller": "external",
                                                                      "signal.phases[0].min_green": "5 s"})
@@ -186,6 +227,16 @@ class OwnController(unittest.TestCase):
             simulation.step()
         self.assertEqual(simulation.violations["overlaps"], 0)
         return simulation.vehicles()["gap_m"][1:]
+
+    def test_no_acceleration_makes_vehicles_collide(self):
+        for acceleration in (0.5, 3.0, 1e30, float("inf"), -1.0):
+            simulation = stopline.Simulation(SCENARIOS / "intersection.yaml",
+                                             {"populations": "[CDG]", "measure.baseline": "CDG", "measure.cycles": 1})
+            for _ in range(60):
+                ids = simulation.vehicles()["id"]
+                simulation.set_acceleration(ids, np.full(len(ids), acceleration))
+                simulation.step(100)
+            self.assertEqual(set(simulation.violations.values()), {0}, f"{acceleration} m/s2")
 
     def test_it_keeps_the_gaps_of_ctg_ref(self):
         end_s = 120.0

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Compares signals that react to traffic with those of SUMO: one intersection, four controllers, four demands.
+"""Compares fixed-time, actuated and NEMA signals with SUMO at one intersection, with four demands.
 
-    signals.py FOLDER_OF_STOPLINE_PROGRAMS [FOLDER_OF_THE_PYTHON_PACKAGE] [--seeds N] [--keep FOLDER]
+    signals.py FOLDER_OF_STOPLINE_PROGRAMS [FOLDER_OF_THE_PYTHON_PACKAGE] [--seeds N] [--only NAME]
 
 Both programs simulate the same network with the same vehicles. The table shows throughput, mean delay and mean green.
-Delay is the travel time minus that of a vehicle that never stops, in the same program. Limits: 5 %, 10 % and 1 s. The
+Delay is the travel time minus the fastest one of the same turn, in the same program. Limits: 5 %, 10 % and 1 s. The
 exit code is 1 if a difference exceeds its limit, and 77 if SUMO or the Python package is missing.
 """
 
@@ -109,7 +109,8 @@ def write_trips(folder, veh_h, seed):
 
 
 def travel_times(file):
-    """Returns (route, end, duration) of each finished trip. The duration includes the delay before departure."""
+    """Returns first edge, arrival time, duration and last edge of each finished trip. The duration includes the delay
+    before departure."""
     return [(trip.get("departLane").rsplit("_", 1)[0], float(trip.get("arrival")),
              float(trip.get("duration")) + float(trip.get("departDelay")), trip.get("arrivalLane").rsplit("_", 1)[0])
             for trip in ElementTree.parse(file).getroot().iter("tripinfo")]  # fmt: skip

@@ -233,5 +233,29 @@ TEST(EstimatedStep, ClosesItsBalanceAndBrakesAfterEngineDrag) {
     EXPECT_NEAR(energy_use(*car.settings.energy, car.tables, braking.engine, 0.1).fuel_g, 0.0, 1e-12);
 }
 
+// The curves of lorries and the bus belong to the power of the engine itself. Those of the cars belong to wheel power
+// and a driveline efficiency of their source.
+TEST(EnergyModel, ReadsTheCurveAtThePowerOfItsSource) {
+    constexpr double kTorque_Nm = 60.0;
+    constexpr double kSpeed_rpm = 1500.0;
+    for (const std::string& name : car_names()) {
+        const Car car(name);
+        const EnergySettings& energy = *car.settings.energy;
+        if (energy.source != "fuel") continue;
+        EngineLoad load;
+        load.torque_Nm = kTorque_Nm;
+        load.rpm = kSpeed_rpm;
+        const double engine_W = kTorque_Nm * kSpeed_rpm * kRadpsPerRpm;
+        const bool is_engine_map = energy.map_efficiency == 1.0;
+        EXPECT_EQ(is_engine_map, name.find("lorry") != std::string::npos || name.find("bus") != std::string::npos)
+            << name;
+        const double source_W =
+            is_engine_map ? engine_W : engine_W * car.settings.driveline_efficiency / energy.map_efficiency;
+        EXPECT_NEAR(energy_use(energy, car.tables, load, 3600.0).fuel_g,
+                    fuel_g_per_h(energy, source_W + energy.auxiliaries_W), 1e-9)
+            << name;
+    }
+}
+
 }  // namespace
 }  // namespace stopline

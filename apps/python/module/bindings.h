@@ -5,6 +5,8 @@
 
 namespace stopline::python {
 
+inline constexpr int kMaxThreads = 1024;
+
 void bind_scenario(pybind11::module_& module);
 void bind_tables(pybind11::module_& module);
 void bind_run(pybind11::module_& module);

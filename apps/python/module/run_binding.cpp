@@ -27,9 +27,9 @@ namespace py = pybind11;
 // Runs all populations of a scenario in a thread of its own. This thread never needs Python's interpreter lock.
 class BackgroundRun {
 public:
-    BackgroundRun(Scenario scenario, int threads)
+    BackgroundRun(Scenario scenario, int wanted_threads)
         : scenario_(std::move(scenario)),
-          result_(std::async(std::launch::async, [this, threads] {
+          result_(std::async(std::launch::async, [this, threads = checked_threads(wanted_threads)] {
                       const int all = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
                       return run_report(scenario_, threads > 0 ? threads : all, [this](double share) {
                           progress_ = share;
@@ -81,6 +81,11 @@ public:
     }
 
 private:
+    static int checked_threads(int threads) {
+        if (threads < 0 || threads > kMaxThreads)
+            throw std::invalid_argument(fmt::format("{} threads: allowed are 0 to {}", threads, kMaxThreads));
+        return threads;
+    }
     const RunReport& report() const {
         try {
             return result_.get();
@@ -114,7 +119,7 @@ void bind_run(py::module_& module) {
         .def_property_readonly("tables", &BackgroundRun::tables,
                                "the tables by name, such as 'summary'; waits for the end")
         .def_property_readonly("state_hashes", &BackgroundRun::hashes,
-                               "hash of the final state of each population, as in provenance.json of stopline-run")
+                               "hash of the final state of each population, as in NAME.provenance.json of stopline-run")
         .def_property_readonly("passes", &BackgroundRun::passes,
                                "True if no violation has occurred and no movement starves")
         .def("__repr__", [](const BackgroundRun& run) {

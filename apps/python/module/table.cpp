@@ -15,14 +15,11 @@ Column column_of(const CsvTable& csv, std::size_t k) {
     Column column;
     column.name = csv.columns[k];
     column.has_numbers = !column.name.ends_with("hash");
-    bool has_values = false;
     for (const std::vector<std::string>& row : csv.rows) {
         const std::optional<double> number = row[k].empty() ? std::nullopt : parse_number(row[k]);
         column.has_numbers = column.has_numbers && (row[k].empty() || number);
-        has_values = has_values || number;
         column.numbers.push_back(number.value_or(std::numeric_limits<double>::quiet_NaN()));
     }
-    column.has_numbers = column.has_numbers && (has_values || csv.rows.empty());
     if (column.has_numbers) return column;
     column.numbers.clear();
     for (const std::vector<std::string>& row : csv.rows) column.texts.push_back(row[k]);

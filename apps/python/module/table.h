@@ -21,8 +21,8 @@ struct Table {
     std::size_t rows = 0;
 };
 
-// Converts the text of a CSV table. A column has numbers if each cell is a number or empty, and one is a number. Hashes
-// are texts. Throws InputError if the text is no table.
+// Converts the text of a CSV table. A column has numbers if each cell is a number or empty. Hashes are texts. Throws
+// InputError if the text is no table.
 Table table_of_csv(std::string name, std::string_view csv);
 
 }  // namespace stopline::python

@@ -15,15 +15,15 @@ std::string energy_csv(const std::vector<PopulationDriving>& populations) {
                    "co2_g", "energy_Wh", "driven_Wh", "overrun_Wh", "brake_Wh", "air_Wh", "rolling_Wh"});
     for (const PopulationDriving& p : populations) {
         for (const VehicleEnergy& vehicle : p.driving.energy.vehicles) {
-            const auto Wh = [](double work_J) { return fixed(work_J / kSecondsPerHour, 3); };
+            const auto in_Wh = [](double work_J) { return fixed(work_J / kSecondsPerHour, 3); };
             const StepWork& work = vehicle.work;
             csv.row({p.population, std::to_string(vehicle.id), p.driving.energy.policy_names[at(vehicle.policy)],
                      fixed(vehicle.entered_s, 2), fixed(vehicle.left_s, 2), fixed(work.distance_m, 2),
                      std::to_string(vehicle.stops), fixed(vehicle.idle_s, 2),
                      vehicle.has_battery ? "" : fixed(vehicle.use.fuel_g, 4),
                      vehicle.has_battery ? "" : fixed(vehicle.co2_g, 3),
-                     vehicle.has_battery ? Wh(vehicle.use.battery_J) : "", Wh(work.driven_J), Wh(work.overrun_J),
-                     Wh(work.brake_J), Wh(work.air_J), Wh(work.rolling_J)});
+                     vehicle.has_battery ? in_Wh(vehicle.use.battery_J) : "", in_Wh(work.driven_J),
+                     in_Wh(work.overrun_J), in_Wh(work.brake_J), in_Wh(work.air_J), in_Wh(work.rolling_J)});
         }
     }
     return csv.text();

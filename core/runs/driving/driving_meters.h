@@ -14,7 +14,7 @@ namespace stopline {
 
 class DrivingMeters {
 public:
-    // The meters keep references to the scenario and the model.
+    // The meters keep references to the model.
     DrivingMeters(const Scenario& scenario, std::size_t population, const Model& model);
 
     // Call before each step, and once after the last step.

@@ -1,4 +1,4 @@
-// What the meters of a run have measured (driving_meters.h).
+// The results of the meters of a run (driving_meters.h).
 #pragma once
 
 #include "runs/driving/energy_results.h"

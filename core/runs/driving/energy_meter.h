@@ -14,7 +14,7 @@ namespace stopline {
 
 class EnergyMeter {
 public:
-    // The meter keeps references to the scenario and the model.
+    // The meter keeps a reference to the model.
     EnergyMeter(const Scenario& scenario, std::size_t population, const Model& model);
 
     // Call before each step, and once after the last step.

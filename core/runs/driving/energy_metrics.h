@@ -17,9 +17,10 @@ MetricList<Run> fuel_metrics() {
          .unit = "g/veh",
          .extent = "window",
          .meaning =
-             "mean fuel of a vehicle with an engine, on its whole way through the network. The vehicles that "
-             "leave the network in the window count; single light: all vehicles. This column and the next ones are written only with "
-             "`measure.energy: on`; the mesoscale mode estimates them",
+             "mean fuel of a vehicle with an engine, from its entry to its exit, also before the window and outside the "
+             "measured area. The vehicles that leave the network in the window count; single light: all vehicles. This "
+             "column and those up to `energy_residual_percent` are written only with `measure.energy: on`; the "
+             "mesoscale mode estimates them",
          .value = [=](const Run& run) { return fuel(run).per_vehicle(); },
          .summary_decimals = 3,
          .console = {.heading = "fuel",
@@ -29,20 +30,20 @@ MetricList<Run> fuel_metrics() {
         {.column = "fuel_g_per_km",
          .unit = "g/km",
          .extent = "window",
-         .meaning = "fuel of these vehicles over their distance",
+         .meaning = "fuel of these vehicles divided by their distance",
          .value = [=](const Run& run) { return fuel(run).per_km(); },
          .summary_decimals = 3,
          .figure = {.axis = "fuel", .sweep = {.change = "fuel saved against {} [%]", .better = Better::lower}}},
         {.column = "fuel_g_per_stop",
          .unit = "g/stop",
          .extent = "window",
-         .meaning = "fuel of these vehicles over their number of stops; empty: no stops",
+         .meaning = "fuel of these vehicles divided by their number of stops; empty: no stops",
          .value = [=](const Run& run) { return fuel(run).per_stop(); },
          .summary_decimals = 3},
         {.column = "fuel_l_per_100km",
          .unit = "l/100 km",
          .extent = "window",
-         .meaning = "fuel of these vehicles in litres over their distance",
+         .meaning = "fuel of these vehicles in litres, divided by their distance",
          .value =
              [=](const Run& run) {
                  const double km = fuel(run).distance_km;
@@ -59,13 +60,13 @@ MetricList<Run> fuel_metrics() {
         {.column = "co2_g_per_km",
          .unit = "g/km",
          .extent = "window",
-         .meaning = "CO2 of these vehicles over their distance",
+         .meaning = "CO2 of these vehicles divided by their distance",
          .value =
              [=](const Run& run) {
                  return fuel(run).distance_km > 0.0 ? totals(run).co2_g / fuel(run).distance_km : kNan;
              },
          .summary_decimals = 2,
-         .console = {.heading = "CO2", .decimals = 1, .note = "over the distance of these vehicles"}}};
+         .console = {.heading = "CO2", .decimals = 1, .note = "for each kilometre"}}};
 }
 
 template <class Run>
@@ -82,14 +83,14 @@ MetricList<Run> battery_metrics() {
             {.column = "energy_Wh_per_km",
              .unit = "Wh/km",
              .extent = "window",
-             .meaning = "energy of these vehicles over their distance",
+             .meaning = "energy of these vehicles divided by their distance",
              .value = [=](const Run& run) { return battery(run).per_km(); },
              .summary_decimals = 3,
              .console = {.heading = "electric\nenergy", .decimals = 1, .note = "from the battery, less recuperation"}},
             {.column = "energy_Wh_per_stop",
              .unit = "Wh/stop",
              .extent = "window",
-             .meaning = "energy of these vehicles over their number of stops; empty: no stops",
+             .meaning = "energy of these vehicles divided by their number of stops; empty: no stops",
              .value = [=](const Run& run) { return battery(run).per_stop(); },
              .summary_decimals = 3}};
 }
@@ -112,8 +113,8 @@ MetricList<Run> energy_metrics() {
            .value = [=](const Run& run) { return energy(run).totals.vehicles; }},
           {.column = "stops_per_veh",
            .extent = "window",
-           .meaning = "mean number of stops of these vehicles, including a standstill at entry; a further stop counts "
-                      "after a speed above 5 km/h",
+           .meaning = "mean number of stops of these vehicles, including a standstill at entry; the next stop counts "
+                      "only after a speed above 5 km/h",
            .value = [=](const Run& run) { return per_vehicle(run, energy(run).totals.stops); },
            .summary_decimals = 3},
           {.column = "idle_s_per_veh",
@@ -126,8 +127,8 @@ MetricList<Run> energy_metrics() {
            .unit = "%",
            .extent = "run",
            .meaning =
-               "work of all engines and motors that is missing in the sum of brakes, air, rolling, slope, kinetic "
-               "energy and rotating parts; empty: mesoscale mode",
+               "error of the energy balance: work of engines and motors minus braking, resistances, slope and changes of "
+               "kinetic energy, in percent of the positive work; 0: the balance closes; empty: mesoscale mode",
            .value = [=](const Run& run) { return energy(run).residual_percent(); },
            .summary_decimals = 5}}});
     for (Metric<Run>& metric : metrics) metric.asked_for = asks_for_energy;

@@ -12,45 +12,45 @@ MetricList<Run> comfort_metrics() {
     const auto jerk = [](const Run& run) -> const SafetyDistribution& {
         return run.counts().driving.safety.of(SafetyMeasure::jerk);
     };
-    return {{.column = "jerk_p1_mps3",
-             .unit = "m/s3",
-             .extent = "run",
-             .meaning =
-                 "first percentile of the jerk of moving vehicles, from accelerations over 0.1 s; the jolt in which a "
-                 "vehicle comes to rest does not count. This column and the next ones are written only with "
-                 "`measure.surrogate_safety: on`",
-             .value = [=](const Run& run) { return jerk(run).quantile(0.01); },
-             .summary_decimals = 3},
-            {.column = "jerk_p99_mps3",
-             .unit = "m/s3",
-             .extent = "run",
-             .meaning = "99th percentile of this jerk",
-             .value = [=](const Run& run) { return jerk(run).quantile(0.99); },
-             .summary_decimals = 3},
-            {.column = "jerk_min_mps3",
-             .unit = "m/s3",
-             .extent = "run",
-             .meaning = "smallest (most negative) jerk",
-             .value = [=](const Run& run) { return jerk(run).smallest(); },
-             .summary_decimals = 3},
-            {.column = "jerk_max_mps3",
-             .unit = "m/s3",
-             .extent = "run",
-             .meaning = "largest jerk",
-             .value = [=](const Run& run) { return jerk(run).largest(); },
-             .summary_decimals = 3},
-            {.column = "hard_braking_per_veh_km",
-             .unit = "1/(veh km)",
-             .extent = "run",
-             .meaning = "number of times that a vehicle begins to brake harder than 3 m/s2, over the distance of all "
-                        "vehicles; a further time counts after the deceleration was below 2 m/s2",
-             .value =
-                 [](const Run& run) {
-                     const SafetyResult& safety = run.counts().driving.safety;
-                     return safety.vehicle_km > 0.0 ? static_cast<double>(safety.hard_brakings) / safety.vehicle_km
-                                                    : kNan;
-                 },
-             .summary_decimals = 4}};
+    return {
+        {.column = "jerk_p1_mps3",
+         .unit = "m/s3",
+         .extent = "run",
+         .meaning =
+             "first percentile of the jerk of moving vehicles, from accelerations over 0.1 s, or over a step if it is longer; "
+             "the jolt in which a vehicle comes to rest does not count. This column and those up to "
+             "`time_gap_min_s` are written only with `measure.surrogate_safety: on`",
+         .value = [=](const Run& run) { return jerk(run).quantile(0.01); },
+         .summary_decimals = 3},
+        {.column = "jerk_p99_mps3",
+         .unit = "m/s3",
+         .extent = "run",
+         .meaning = "99th percentile of this jerk",
+         .value = [=](const Run& run) { return jerk(run).quantile(0.99); },
+         .summary_decimals = 3},
+        {.column = "jerk_min_mps3",
+         .unit = "m/s3",
+         .extent = "run",
+         .meaning = "smallest (most negative) jerk",
+         .value = [=](const Run& run) { return jerk(run).smallest(); },
+         .summary_decimals = 3},
+        {.column = "jerk_max_mps3",
+         .unit = "m/s3",
+         .extent = "run",
+         .meaning = "largest jerk",
+         .value = [=](const Run& run) { return jerk(run).largest(); },
+         .summary_decimals = 3},
+        {.column = "hard_braking_per_veh_km",
+         .unit = "1/(veh km)",
+         .extent = "run",
+         .meaning = "number of times that a vehicle begins to brake harder than 3 m/s2, divided by the distance of "
+                    "all vehicles; the next time counts only after the deceleration has fallen below 2 m/s2",
+         .value =
+             [](const Run& run) {
+                 const SafetyResult& safety = run.counts().driving.safety;
+                 return safety.vehicle_km > 0.0 ? static_cast<double>(safety.hard_brakings) / safety.vehicle_km : kNan;
+             },
+         .summary_decimals = 4}};
 }
 
 // Returns all metrics of comfort and surrogate safety.
@@ -62,28 +62,29 @@ MetricList<Run> safety_metrics() {
          {{.column = "ttc_min_s",
            .unit = "s",
            .extent = "run",
-           .meaning = "smallest time to collision: net gap over closing speed, of a moving vehicle that approaches its "
-                      "leader",
+           .meaning =
+               "smallest time to collision (net gap divided by closing speed) of a moving vehicle that approaches its "
+               "leader",
            .value = [=](const Run& run) { return safety(run).of(SafetyMeasure::time_to_collision).smallest(); },
            .summary_decimals = 3},
           {.column = "ttc_critical_percent",
            .unit = "%",
            .extent = "run",
-           .meaning = "share of the time behind a leader with a time to collision below 1.5 s",
+           .meaning = "share of the time with a leader in which the time to collision is below 1.5 s",
            .value = [=](const Run& run) { return safety(run).following_percent(safety(run).critical_ttc); },
            .summary_decimals = 4},
           {.column = "ttc_short_percent",
            .unit = "%",
            .extent = "run",
-           .meaning = "share of the time behind a leader with a time to collision below 3 s",
+           .meaning = "share of the time with a leader in which the time to collision is below 3 s",
            .value = [=](const Run& run) { return safety(run).following_percent(safety(run).short_ttc); },
            .summary_decimals = 4},
           {.column = "brake_threat_p99",
            .extent = "run",
            .meaning =
-               "99th percentile of the brake threat number: deceleration that just avoids the leader, over the "
-               "deceleration that friction allows; from 1 on, braking alone cannot avoid the leader if it goes on "
-               "with its acceleration",
+               "99th percentile of the brake threat number: the deceleration that just prevents a collision with the "
+               "leader, divided by the highest one that friction allows; from 1 on, braking alone cannot prevent the "
+               "collision if the leader keeps its acceleration",
            .value = [=](const Run& run) { return safety(run).of(SafetyMeasure::brake_threat).quantile(0.99); },
            .summary_decimals = 4},
           {.column = "brake_threat_max",
@@ -100,7 +101,7 @@ MetricList<Run> safety_metrics() {
           {.column = "time_gap_min_s",
            .unit = "s",
            .extent = "run",
-           .meaning = "smallest net gap over speed of a vehicle faster than 5 km/h",
+           .meaning = "smallest net gap divided by the speed of a vehicle faster than 5 km/h",
            .value = [=](const Run& run) { return safety(run).of(SafetyMeasure::time_gap).smallest(); },
            .summary_decimals = 3}}});
     for (Metric<Run>& metric : metrics) metric.asked_for = asks_for_safety;

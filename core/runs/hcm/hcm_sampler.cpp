@@ -33,7 +33,7 @@ HcmSampler::HcmSampler(const Scenario& scenario, const Model& model)
     : model_(model),
       sample_ticks_(std::max<std::int64_t>(to_ticks(kHcmSample_s, model.step_s), 1)),
       sample_s_(static_cast<double>(sample_ticks_) * model.step_s),
-      free_flow_share_(model.meso ? model.leader_speed_share * model.speed_factor : 1.0),
+      free_flow_share_(model.meso ? model.leader_speed_share : 1.0),
       record_of_(model.graph.lanes.size(), -1),
       records_of_group_(at(model.graph.signal_groups)) {
     for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
@@ -92,12 +92,12 @@ void HcmSampler::visit_lane(const State& state, int lane) {
     const VehicleArrays& v = state.vehicles;
     const LaneBlock& block = state.blocks[at(lane)];
     const Lane& road = model_.graph.lanes[at(lane)];
-    const double free_mps = road.limit_mps * free_flow_share_;
     const int record = record_of_[at(lane)];
     for (int slot = block.first; slot < block.past_last(); ++slot) {
         if (v.id[at(slot)] < 0) continue;  // free slot
         Track& track = track_of(v.id[at(slot)]);
         const double speed_mps = v.speed_mps[at(slot)];
+        const double free_mps = free_flow_share_ * state.plan.free_speed_mps(lane, v.policy[at(slot)]);
         const double lost_s = sample_s_ * (1.0 - speed_mps / free_mps);
         const bool is_before_line = record >= 0 && v.position_m[at(slot)] <= road.stop_line_m;
         if (track.last_record >= 0) {

@@ -47,7 +47,7 @@ private:
     void note_passages(const State& state);
     void begin_cycle(const State& state, int record, double now_s);
     void visit_lane(const State& state, int lane);
-    void approach_line(Track& track, int record, double position_m, double speed_mps, double lost_s, double length_m);
+    void approach_line(Track& track, int record, double to_line_m, double speed_mps, double lost_s, double length_m);
     int queued_before_line(const State& state, int record) const;
     int present_before_line(const State& state, int record) const;
     Track& track_of(int vehicle);

@@ -120,7 +120,7 @@ const HcmRow* worst_approach(const std::vector<HcmRow>& rows) { return worst(row
 double highest_saturation(const std::vector<HcmRow>& rows) {
     double highest = kNan;
     for (const HcmRow& row : rows) {
-        if (row.scope == HcmRow::Scope::lane && !(row.saturation <= highest)) highest = row.saturation;
+        if (row.scope == HcmRow::Scope::lane) highest = std::fmax(highest, row.saturation);  // ignores NaN
     }
     return highest;
 }

@@ -21,7 +21,7 @@ TableDoc energy_table_doc(std::string_view name) {
          {"left_s", "s", "run", "time at which the vehicle leaves the network; empty: still there at the end"},
          {"distance_m", "m", "run", "driven distance"},
          {"stops", "", "run",
-          "stops, including a standstill at entry; a further stop counts after a speed above 5 km/h"},
+          "stops, including a standstill at entry; the next stop counts only after a speed above 5 km/h"},
          {"idle_s", "s", "run", "time for which the vehicle is stopped"},
          {"fuel_g", "g", "run", "fuel; empty: electric vehicle"},
          {"co2_g", "g", "run", "CO2 from this fuel"},
@@ -36,7 +36,7 @@ TableDoc energy_table_doc(std::string_view name) {
 TableDoc safety_table_doc(std::string_view name) {
     return {
         name,
-        "Written with `measure.surrogate_safety: on`. One row for each bin of a distribution that has samples. The "
+        "Written with `measure.surrogate_safety: on`. One row for each bin that has samples. The "
         "first and the last\nbin of a distribution also hold all values beyond them.",
         {kPopulationColumn,
          {"measure", "", "",

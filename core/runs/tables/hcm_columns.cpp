@@ -6,7 +6,7 @@ namespace stopline {
 std::vector<ColumnDoc> hcm_columns() {
     return {
         kPopulationColumn,
-        {"scope", "", "", "`lane`, `approach` or `intersection`. The last two have only flows, delays and stops"},
+        {"scope", "", "", "`lane`, `approach` or `intersection`. Columns without a meaning for the last two are empty"},
         {"name", "", "", "name of the lane or approach, or number of the intersection from 0"},
         {"cycles", "", "window", "number of whole cycles, from start of red to start of red; all values cover them"},
         {"cycle_s", "s", "window", "mean length of these cycles"},
@@ -17,16 +17,16 @@ std::vector<ColumnDoc> hcm_columns() {
         {"saturation_flow_veh_h", "veh/h", "window", "flow at the mean headway from the fifth vehicle of a queue on"},
         {"startup_lost_time_s", "s", "window", "start-up lost time of the first four vehicles of a queue"},
         {"end_gain_s", "s", "window",
-         "mean time from the end of green to the last passage of a queue that lasts until the end of green; below 5 such "
+         "mean time from the end of green to the passage of the last queued vehicle, in greens in which the queue does not clear; below 5 such "
          "greens the mean of all lanes, or 2 s if all lanes have fewer than 5"},
         {"effective_green_s", "s", "window", "green minus start-up lost time plus end gain"},
-        {"capacity_veh_h", "veh/h", "window", "saturation flow times effective green over cycle"},
+        {"capacity_veh_h", "veh/h", "window", "saturation flow times effective green, divided by the cycle"},
         {"volume_veh_h", "veh/h", "window",
          "vehicles that arrive: `passed_veh_h` plus the growth of the number of vehicles before the stop line. "
-         "With endless demand, the vehicles that find room"},
+         "At a saturated inlet, the vehicles that enter"},
         {"passed_veh_h", "veh/h", "window", "vehicles that pass the stop line"},
         {"degree_of_saturation", "", "window",
-         "`volume_veh_h` over `capacity_veh_h`; approach and intersection: the highest of their lanes"},
+         "`volume_veh_h` divided by `capacity_veh_h`; approach and intersection: the highest of their lanes"},
         {"control_delay_s", "s", "window", "measured mean control delay of the vehicles that pass"},
         {"formula_delay_s", "s", "window", "control delay by the formula: sum of the next three columns"},
         {"uniform_delay_s", "s", "window", "uniform delay d1"},
@@ -45,8 +45,8 @@ std::vector<ColumnDoc> hcm_columns() {
         {"queue_95_m", "m", "window", "95th percentile of the same; at most the length of the lane"},
         {"residual_queue_percent", "%", "window", "share of the cycles after which a part of the queue remains"},
         {"state", "", "window",
-         "`free`; `saturated`: a queue remains after half of the cycles or more; `oversaturated`: the degree of "
-         "saturation exceeds 1, or demand is endless and queues remain. Delay then depends on the length of the run"},
+         "`free`: the queue clears in more than half of the cycles; `saturated`: a queue remains after half of the cycles or more; `oversaturated`: the degree of "
+         "saturation exceeds 1, or the inlet is saturated and queues remain. Delay then depends on the length of the run"},
         {"level_of_service", "", "window",
          "level of service A to F of the measured delay; a lane that is oversaturated has F. Empty: no vehicle"},
         {"formula_level_of_service", "", "window", "the same for the delay by the formula"}};
@@ -56,7 +56,7 @@ std::vector<ColumnDoc> hcm_headway_columns() {
     return {kPopulationColumn,
             {"lane", "", "", "lane with a stop line"},
             {"position", "", "", "position in the queue, from 1"},
-            {"headway_s", "s", "window", "mean headway over greens; first position: time since the start of green"},
+            {"headway_s", "s", "window", "mean headway; first position: time since the start of green"},
             {"samples", "", "window", "number of headways in the mean"}};
 }
 

@@ -145,7 +145,7 @@ std::vector<Row<SignalSettings>> signal_rows() {
         choice<&SignalSettings::controller>("controller", signal_controller_names(),
                                             "signal controller; fixed_time: the lights follow a programme; actuated: "
                                             "greens end at gaps in the traffic; dual_ring: actuated phases in two "
-                                            "rings (NEMA); external: a program chooses the phases"),
+                                            "rings (NEMA); external: your Python code chooses the phases"),
         number<&SignalSettings::first_green_s>(
             "first_green", "s", {0, 7200},
             "start of the first green; before it the signal is red, so that a queue forms"),

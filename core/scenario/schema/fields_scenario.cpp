@@ -202,10 +202,10 @@ const Table& measure_table() {
                                "report fuel, CO2 and electric energy; the mesoscale mode estimates them"),
             choice<&S::surrogate_safety>(
                 "surrogate_safety", {"off", "on"},
-                "report comfort and surrogate safety: jerk, hard braking, time to collision, braking, smallest gaps"),
+                "report comfort and surrogate safety: jerk, hard braking, time to collision, brake threat number, smallest gaps"),
             choice<&S::hcm>(
                 "hcm", {"off", "on"},
-                "intersections: report saturation flow, capacity, control delay, queues and level of service of each "
+                "lanes with a signal: report saturation flow, capacity, control delay, queues and level of service of each "
                 "lane by the Highway Capacity Manual, in hcm.csv"),
             number<&S::area_margin_m>("area_margin", "m", {0, 10'000},
                                       "grids and streets: distance from the outer intersections to the boundary of the "

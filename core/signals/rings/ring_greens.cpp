@@ -13,7 +13,8 @@ public:
     RingGreens(SignalView view, int group)
         : view_(view), rings_(view_.plan().phases.rings), memory_(view_.memory(), view_.plan().phases), group_(group) {}
 
-    // Returns the shortest rest of the present green. Green lasts as long as one of the rings gives it.
+    // Returns the green that is certain to last, from its start to its earliest end. Green lasts as long as one of the
+    // rings gives it.
     GreenWindow present() const {
         GreenWindow green{view_.green_start_tick(group_), view_.tick() + 1};
         for (std::size_t ring = 0; ring < kRings; ++ring) {
@@ -23,7 +24,8 @@ public:
         return green;
     }
 
-    // Returns the green that begins after the yellow and red times that run now; unknown if it does not begin then.
+    // Returns the green that begins after the yellow and red times that run now; unknown if no green of the
+    // group follows these times.
     GreenWindow following() const {
         std::int64_t both_cleared_tick = view_.tick();
         for (std::size_t ring = 0; ring < kRings; ++ring)

@@ -1,4 +1,4 @@
-// What the dual-ring controller keeps in the memory of a signal.
+// The memory of the dual-ring controller.
 #pragma once
 
 #include <cstddef>

@@ -94,17 +94,17 @@ void apply_classes(const Model& model, int vehicles, const FullGroup& g) {
     }
 }
 
-// Puts the accelerations of the program (ExternalRequests) in the place of the gap laws. A desired gap far below the
-// real one makes the gap law ask for the highest acceleration, so the demand decides.
+// Replaces the gap laws by the accelerations of the program (ExternalRequests). They limit the vehicles like external
+// demands. A constant gap of kSmallestGap_m replaces the gap of the policy, so that no vehicle runs into its leader.
 void apply_external_requests(const State& state, const LaneGroup& lanes, const FullGroup& g) {
-    constexpr double kNoGap_m = -1e6;
+    constexpr double kSmallestGap_m = 1.0;
     if (state.external_requests.empty()) return;
     int place = 0;
     for (const LaneStep& lane : lanes.lanes) {
         for (int slot = lane.begin; slot < lane.stop; ++slot, ++place) {
             const float request_mps2 = state.external_requests.of(state.vehicles.id[at(slot)]);
             if (std::isnan(request_mps2)) continue;
-            g.desired_gap[place] = kNoGap_m;
+            g.desired_gap[place] = kSmallestGap_m;
             g.slope[place] = 0.0;
             g.is_platoon_leader[place] = 0.0F;
             g.demand[place] = std::min(g.demand[place], request_mps2);

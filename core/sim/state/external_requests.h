@@ -7,8 +7,9 @@
 
 namespace stopline {
 
-// The acceleration of a program takes the place of the gap law of a vehicle in full dynamics. All other rules still
-// apply: the vehicle stops at lines, yields, keeps speed limits and brakes in an emergency.
+// The acceleration of a program replaces the gap law of an automated vehicle in full dynamics. It is an upper limit:
+// the vehicle keeps a gap of at least about 1 m, never accelerates more than in free driving, stops at lines, yields,
+// keeps speed limits and brakes in an emergency. A human driver also keeps the own distance.
 class ExternalRequests {
 public:
     bool empty() const { return request_mps2_.empty(); }

@@ -36,16 +36,16 @@ const Table& energy_table() {
         {
             choice<&S::source>("source", {"fuel", "battery"}, "fuel: combustion engine; battery: electric motor"),
             curve<&S::fuel_rate>("fuel_rate", {"kW", {0, 2000}}, {"g/h", {0, 1'000'000}}, {2, 200},
-                                 "fuel rate over engine power, from 0 kW on; between no power and the drag torque, the "
-                                 "rate falls to 0 g/h")
+                                 "fuel rate by engine power, from 0 kW on; when the wheels drive the engine, the rate "
+                                 "falls from the value at 0 kW to 0 g/h at the drag torque")
                 .required()
                 .only_if("source", {"fuel"}),
             number<&S::idle_fuel_g_per_h>("idle_fuel", "g/h", {0, 100'000}, "fuel rate at standstill")
                 .required()
                 .only_if("source", {"fuel"}),
             number<&S::map_efficiency>("map_efficiency", "%", {10, 100},
-                                       "driveline efficiency with which the source of fuel_rate computes engine power "
-                                       "from wheel power; 100 %: fuel_rate is a map of the engine alone")
+                                       "driveline efficiency with which the data behind fuel_rate compute engine power "
+                                       "from wheel power; 100 %: fuel_rate belongs to the power of the engine itself")
                 .only_if("source", {"fuel"}),
             number<&S::fuel_density_kg_per_m3>("fuel_density", "g/l", {100, 1500}, "density of the fuel")
                 .required()

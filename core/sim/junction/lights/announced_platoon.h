@@ -8,12 +8,13 @@
 
 namespace stopline {
 
-// The vehicles that have to stop first if the green ends now, as a platoon: automated vehicles that follow each other
-// closely. A platoon of limited length (PlatoonSettings::max_vehicles) ends before the leader of the next mini-platoon.
+// The first platoon of the lane that can still stop if green ends now. It begins with the first vehicle that can stop
+// before the line. Its vehicles are automated and follow each other closely. A platoon of limited length
+// (PlatoonSettings::max_vehicles) ends before the leader of the next mini-platoon.
 struct AnnouncedPlatoon {
     std::int64_t rear_tick = -1;  // tick at which its rear passes the line if the light stays green; -1: no platoon
-    // The whole platoon can wait for the next green. False: other vehicles of the platoon pass the line, or the first
-    // vehicle that can stop has stopped already and starts now.
+    // The whole platoon can wait for the next green. False: other vehicles of the platoon pass the line, or its first
+    // vehicle is stopped in the queue and starts at this green.
     bool can_wait = true;
 };
 
