@@ -117,7 +117,7 @@ TEST(SignalController, WrongSettingsAreRefused) {
     expect_error("single_light.yaml", {"signal.controller=until_free", "signal.free_time=0 s"}, "1 s to 60 s");
     expect_error("single_light.yaml", {"signal.controller=until_free", "signal.all_red=0 s"},
                  "field 'signal.all_red': until_free needs at least 1 s");
-    expect_error("berlin.yaml", {"signal={controller: until_free}"}, "field 'signal' applies only if network.kind");
+    expect_error("berlin.yaml", {"signal={controller: until_free}"}, "cannot run the programmes of streets");
 }
 
 // The first green ends when no detector of the approach has been occupied for 3 s.
