@@ -44,7 +44,7 @@ struct HcmCycle {
     int present_before_veh = 0;
 };
 
-// What a run records about a lane.
+// The record of a lane during a run.
 struct HcmRecord {
     int lane = -1;
     std::string approach;
