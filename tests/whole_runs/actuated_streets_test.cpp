@@ -180,7 +180,7 @@ TEST(ActuatedStreets, ProtectedLeftTurnsDoNotYield) {
         if (state.signals.lights[1] != Light::green) continue;
         for (std::size_t lane = 0; lane < model.graph.lanes.size(); ++lane) {
             if (model.graph.lanes[lane].signal_group != 1) continue;
-            const YieldStops& stops = state.junctions.yield_stops[lane];
+            const YieldStops& stops = yield_stops_of(state, static_cast<int>(lane));
             for (int k = 0; k < stops.count; ++k) {
                 if (stops.stops[at(k)].reason != YieldReason::priority) continue;
                 ++(state.signals.phase[0] == 1 ? protected_waits : permissive_waits);

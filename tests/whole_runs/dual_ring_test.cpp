@@ -62,8 +62,9 @@ TEST(DualRingRuns, RightOfWayFollowsThePhasesOfBothRings) {
             const Lane& connection = model.graph.lanes[lane];
             if (connection.turn != Turn::left || connection.origin < 0) continue;
             if (!model.graph.lanes[at(connection.origin)].name.starts_with("west")) continue;
-            for (int k = 0; k < state.junctions.yield_stops[lane].count; ++k) {
-                if (state.junctions.yield_stops[lane].stops[at(k)].reason != YieldReason::priority) continue;
+            for (int k = 0; k < yield_stops_of(state, static_cast<int>(lane)).count; ++k) {
+                if (yield_stops_of(state, static_cast<int>(lane)).stops[at(k)].reason != YieldReason::priority)
+                    continue;
                 (pair.phase[0] == 0 ? protected_waits : permissive_waits) += 1;
             }
         }

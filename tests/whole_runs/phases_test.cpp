@@ -51,7 +51,7 @@ LeftTurns left_turns_of(const Scenario& scenario, double end_s) {
     while (simulation.time_s() < end_s) {
         simulation.step();
         for (std::size_t lane = 0; lane < model.graph.lanes.size(); ++lane) {
-            const YieldStops& stops = simulation.state().junctions.yield_stops[lane];
+            const YieldStops& stops = yield_stops_of(simulation.state(), static_cast<int>(lane));
             const Lane& road = model.graph.lanes[lane];
             const bool leads_left = road.turn == Turn::left ||
                                     (road.next.size() == 1 && model.graph.lanes[at(road.next[0])].turn == Turn::left);
@@ -109,9 +109,9 @@ TEST(SignalPhases, PermissiveLeftTurnsCanBecomeProtected) {
         if (state.signals.phase[0] != 1 || state.tick - state.signals.phase_start_tick[0] < 50) continue;
         for (std::size_t lane = 0; lane < model.graph.lanes.size(); ++lane) {
             if (model.graph.lanes[lane].turn != Turn::left) continue;
-            for (int k = 0; k < state.junctions.yield_stops[lane].count; ++k)
+            for (int k = 0; k < yield_stops_of(state, static_cast<int>(lane)).count; ++k)
                 protected_waits +=
-                    state.junctions.yield_stops[lane].stops[at(k)].reason == YieldReason::priority ? 1 : 0;
+                    yield_stops_of(state, static_cast<int>(lane)).stops[at(k)].reason == YieldReason::priority ? 1 : 0;
         }
     }
     EXPECT_EQ(protected_waits, 0);

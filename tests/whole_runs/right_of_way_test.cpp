@@ -42,7 +42,7 @@ TEST(RightOfWay, LeftTurnsDoNotWaitWithoutOncomingTraffic) {
         const State& state = simulation.state();
         for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
             if (model.graph.lanes[at(lane)].origin < 0) continue;
-            ASSERT_EQ(state.junctions.yield_stops[at(lane)].count, 0);
+            ASSERT_EQ(yield_stops_of(state, lane).count, 0);
             const LaneBlock& block = state.blocks[at(lane)];
             for (int slot = block.first; slot < block.past_last(); ++slot) {
                 slowest_mps = std::min(slowest_mps, state.vehicles.speed_mps[at(slot)]);
@@ -287,7 +287,8 @@ populations:
     int kept_out_steps = 0;  // vehicle steps in which a driving lorry must not close a cycle
     const auto count = [&](const Simulation& simulation) {
         const State& state = simulation.state();
-        for (const YieldStops& stops : state.junctions.yield_stops) {
+        for (int lane = 0; lane < state.plan.lanes(); ++lane) {
+            const YieldStops& stops = yield_stops_of(state, lane);
             for (int k = 0; k < stops.count; ++k) {
                 const YieldStop& stop = stops.stops[at(k)];
                 const bool is_driving = state.vehicles.speed_mps[at(stop.slot)] > 1.0;

@@ -60,10 +60,7 @@ private:
         wait_for_leader(slot, lane);
     }
 
-    const YieldStop* yield_stop_of(int slot, int lane) const {
-        if (state_.junctions.has_yield_stops[at(lane)] == 0) return nullptr;
-        return state_.junctions.yield_stops[at(lane)].find(slot);
-    }
+    const YieldStop* yield_stop_of(int slot, int lane) const { return yield_stops_of(state_, lane).find(slot); }
 
     void set(int slot, int waits_for, DelayCause cause) {
         w_.waits_for[at(slot)] = waits_for;

@@ -69,12 +69,10 @@ private:
         const int lane = lane_of(slot);
         if (v_.speed_mps[at(slot)] >= kCrawlingSpeed_mps || state_.plan.intersection_of(lane) != intersection_)
             return {slot};
-        if (state_.junctions.has_yield_stops[at(lane)] != 0) {
-            if (const YieldStop* const stop = state_.junctions.yield_stops[at(lane)].find(slot);
-                stop != nullptr && stop->blocker >= 0) {
-                const bool may_go = stop->reason != YieldReason::deadlock && !is_in_path(lane, slot, stop->blocker);
-                return {slot, stop->blocker, may_go};
-            }
+        if (const YieldStop* const stop = yield_stops_of(state_, lane).find(slot);
+            stop != nullptr && stop->blocker >= 0) {
+            const bool may_go = stop->reason != YieldReason::deadlock && !is_in_path(lane, slot, stop->blocker);
+            return {slot, stop->blocker, may_go};
         }
         if (!is_blocked_by_leader(state_, slot)) return {slot};
         const bool is_first = slot == state_.blocks[at(lane)].first;
@@ -125,7 +123,7 @@ DeadlockResolution* find_resolution_for(const State& state, Partition& part, int
 void resolve_deadlocks(const State& state, Partition& part) {
     WaitChains chains(state, part);
     for (const int lane : part.lanes_with_yield_stops) {
-        const YieldStops& stops = state.junctions.yield_stops[at(lane)];
+        const YieldStops& stops = yield_stops_of(state, lane);
         for (int k = 0; k < stops.count; ++k) {
             if (stops.stops[at(k)].blocker >= 0) chains.resolve(lane, stops.stops[at(k)].slot);
         }

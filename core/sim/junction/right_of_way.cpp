@@ -401,11 +401,7 @@ void decide_right_of_way(const Model& model, State& state, Partition& part) {
     std::erase_if(part.blocker_passes, [&](const BlockerPass& pass) {
         return state.tick - pass.last_needed_tick > model.rules.memory_ticks;
     });
-    for (const int lane : part.lanes_with_yield_stops) {
-        state.junctions.yield_stops[at(lane)].count = 0;
-        state.junctions.has_yield_stops[at(lane)] = 0;
-    }
-    part.lanes_with_yield_stops.clear();
+    clear_yield_stops(state.junctions, part);
     state.junctions.to_decide.retain_if(part.first_word, part.end_word, [&](std::size_t bit) {
         decide(model, state, part, state.plan.connection_at(bit));
         return false;

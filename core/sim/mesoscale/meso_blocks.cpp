@@ -85,7 +85,6 @@ int relay_start(const Model& model, const State& state, int lane, StandingQueue&
     return receivers;
 }
 
-const YieldStops kNoYieldStops;
 constexpr double kRounding_m = 1e-3;
 
 class LaneCollector {
@@ -100,8 +99,7 @@ public:
           block_(state.blocks[at(lane)]),
           plan_(state.plan.lane(lane)),
           stop_slot_(state.stop_lines.stop_slot[at(lane)]),
-          yield_stops_(state.junctions.has_yield_stops[at(lane)] != 0 ? state.junctions.yield_stops[at(lane)]
-                                                                      : kNoYieldStops) {}
+          yield_stops_(yield_stops_of(state, lane)) {}
 
     void collect() {
         const int first = block_.first;

@@ -83,7 +83,7 @@ void list_cache_lines(const Model& model, State& state, Partition& part) {
     for (const int lane : part.lanes) {
         state.plan.for_each_memory_range(lane, add);
         element(state.blocks, lane), element(state.queues.sleeps_until_green, lane);
-        element(state.queues.standing, lane), element(state.junctions.has_yield_stops, lane);
+        element(state.queues.standing, lane), element(state.junctions.yield_stops_index, lane);
         if (state.plan.lane(lane).signal_group >= 0) {
             element(state.stop_lines.lines, lane), element(state.stop_lines.stop_slot, lane);
             element(state.stop_lines.held_at_green, lane);

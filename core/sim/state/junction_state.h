@@ -51,8 +51,8 @@ struct JunctionState {
     std::vector<std::vector<JunctionOccupant>> occupants;  // [connection] occupants, furthest downstream first
     // [connection] slots of the vehicles on the approach lane for which right of way on this connection must be decided
     std::vector<std::vector<int>> approaching;
-    std::vector<YieldStops> yield_stops;  // [lane]
-    std::vector<char> has_yield_stops;    // [lane] 1: the lane has yield stops
+    // [lane] index of the lane's yield stops in Partition::yield_stops; -1: the lane has none in this step
+    std::vector<int> yield_stops_index;
     // Sets of connections. In each set, LanePlan::bitset_index is the index of a connection's bit.
     Bitset occupied;                      // connections with occupants
     Bitset with_stopped;                  // connections with an occupant slower than kCrawlingSpeed_mps (1 m/s)
@@ -61,8 +61,14 @@ struct JunctionState {
 };
 
 struct Partition;
+struct State;
 
-// Adds a yield stop to a lane, and adds the lane to Partition::lanes_with_yield_stops if it is not there yet.
+// Adds a yield stop to a lane of the partition, and adds the lane to Partition::lanes_with_yield_stops if it is not
+// there yet.
 void add_yield_stop(JunctionState& junctions, Partition& part, int lane, const YieldStop& stop);
+// Removes all yield stops from the lanes of the partition.
+void clear_yield_stops(JunctionState& junctions, Partition& part);
+// Returns the yield stops of a lane. The reference is valid until the next yield stop is added in the lane's partition.
+const YieldStops& yield_stops_of(const State& state, int lane);
 
 }  // namespace stopline

@@ -37,7 +37,7 @@ void shift_to_begin(State& state, LaneBlock& block) {
 }
 
 // Mesoscale mode: returns the size of a block for a number of vehicles, with a reserve for more.
-int capacity_for(int vehicles) { return vehicles + 2 + vehicles / 4; }
+int capacity_for(int vehicles) { return vehicles + 1 + vehicles / 8; }
 
 // Returns the number of free slots before the block of a lane. One slot is for the sentinel: a copy of the first
 // vehicle's leader, which is on a lane downstream. Before the first lane of a partition (a group of whole
@@ -58,7 +58,7 @@ void repack(State& state, const std::vector<int>& expected) {
         for (const int lane : part.lanes) slots += slots_before(part, lane) + capacity_of(lane);
     }
     slots += kSimdWidth;
-    if (slots > state.vehicles.slots) state.vehicles.grow(slots + slots / 4);
+    if (slots > state.vehicles.slots) state.vehicles.grow(slots + slots / 16);
     // First move all vehicles to the front of the arrays. Then distribute the blocks, from the last one to the first,
     // so that no block overwrites vehicles of another block.
     int next = kSimdWidth;

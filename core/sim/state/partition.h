@@ -13,6 +13,7 @@
 #include "sim/state/delay_log.h"
 #include "sim/state/events.h"
 #include "sim/state/gap_requests.h"
+#include "sim/state/junction_state.h"
 #include "sim/state/vehicles/full_group.h"
 #include "sim/state/vehicles/lane_group.h"
 
@@ -85,6 +86,7 @@ struct Partition {
     std::vector<int> occupied_connections;     // connections with at least one JunctionOccupant
     std::vector<BrakingDemand> extra_demands;  // full dynamics: braking for hidden leaders, in the order of slots
     std::vector<int> lanes_with_yield_stops;
+    std::vector<YieldStops> yield_stops;  // [index in lanes_with_yield_stops]
     std::vector<int> lanes_with_speed_targets;
     IndexBuffer stopped_slots;           // slots of stopped vehicles; valid in steps that attribute delays
     int earliest_stop_tick = 0;          // tick at which the longest stop of a vehicle in stopped_slots began

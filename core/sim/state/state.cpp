@@ -26,9 +26,26 @@ void YieldStops::add(const YieldStop& stop) {
 }
 
 void add_yield_stop(JunctionState& junctions, Partition& part, int lane, const YieldStop& stop) {
-    if (junctions.has_yield_stops[at(lane)] == 0) part.lanes_with_yield_stops.push_back(lane);
-    junctions.has_yield_stops[at(lane)] = 1;
-    junctions.yield_stops[at(lane)].add(stop);
+    int& index = junctions.yield_stops_index[at(lane)];
+    if (index < 0) {
+        index = static_cast<int>(part.lanes_with_yield_stops.size());
+        part.lanes_with_yield_stops.push_back(lane);
+        part.yield_stops.emplace_back();
+    }
+    part.yield_stops[at(index)].add(stop);
+}
+
+void clear_yield_stops(JunctionState& junctions, Partition& part) {
+    for (const int lane : part.lanes_with_yield_stops) junctions.yield_stops_index[at(lane)] = -1;
+    part.lanes_with_yield_stops.clear();
+    part.yield_stops.clear();
+}
+
+const YieldStops& yield_stops_of(const State& state, int lane) {
+    static const YieldStops kNone;
+    const int index = state.junctions.yield_stops_index[at(lane)];
+    if (index < 0) return kNone;
+    return state.partitions[state.location_of[at(lane)].partition].yield_stops[at(index)];
 }
 
 namespace {
@@ -101,8 +118,7 @@ void locate_lanes(State& state) {
 
 void size_junctions(const Model& model, JunctionState& junctions, const State& state) {
     const std::size_t lanes = model.graph.lanes.size();
-    junctions.yield_stops.resize(lanes);
-    junctions.has_yield_stops.assign(lanes, 0);
+    junctions.yield_stops_index.assign(lanes, -1);
     junctions.occupants.resize(lanes);
     junctions.approaching.resize(lanes);
     for (Bitset* set : {&junctions.occupied, &junctions.with_stopped, &junctions.to_decide}) {
@@ -111,10 +127,10 @@ void size_junctions(const Model& model, JunctionState& junctions, const State& s
     const double shortest_m = shortest_vehicle_m(model);
     for (const Partition& part : state.partitions) {
         for (const int lane : part.connections) {
-            constexpr std::size_t kPartlyInside = 8;  // reserve for vehicles that are only partly on the connection
+            constexpr std::size_t kPartlyInside = 3;  // reserve for vehicles that are only partly on the connection
             const double fitting = state.plan.lane(lane).length_m / shortest_m;
             junctions.occupants[at(lane)].reserve(static_cast<std::size_t>(fitting) + kPartlyInside);
-            junctions.approaching[at(lane)].reserve(16);
+            junctions.approaching[at(lane)].reserve(8);
         }
     }
 }

@@ -35,7 +35,7 @@ void add_lane(const Model& model, const State& state, int lane, std::span<const 
     if (stop_slot >= 0) {
         stop_at(stop_slot, plan.stop_line_m - driver_of(stop_slot).stop.margin_m);
     }
-    const YieldStops& yield_stops = state.junctions.yield_stops[at(lane)];
+    const YieldStops& yield_stops = yield_stops_of(state, lane);
     for (int k = 0; k < yield_stops.count; ++k) {
         stop_at(yield_stops.stops[at(k)].slot, yield_stops.stops[at(k)].position_m);
     }

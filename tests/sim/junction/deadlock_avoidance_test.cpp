@@ -127,8 +127,8 @@ TEST_P(DeadlockAvoidance, TheLastVehicleWaitsForTheOneThatMustCross) {
     vehicles().position_m[slot_on("north_0_straight")] = entered().from_m - 2.0;
     kept_out_area();
     decide_right_of_way(track_.model(), track_.mutable_state(), track_.mutable_state().partitions[0]);
-    const YieldStop* const stop = track_.state().junctions.yield_stops[at(lane("north_0_straight"))].find(
-        static_cast<int>(slot_on("north_0_straight")));
+    const YieldStop* const stop =
+        yield_stops_of(track_.state(), lane("north_0_straight")).find(static_cast<int>(slot_on("north_0_straight")));
     ASSERT_NE(stop, nullptr);
     EXPECT_EQ(stop->reason, YieldReason::deadlock);
     EXPECT_EQ(stop->blocker, static_cast<int>(slot_on("east_0_straight")));

@@ -78,8 +78,8 @@ protected:
 
     // Returns true if a left-turning vehicle waits before the conflict area, on its connection or its approach lane.
     bool has_waiting_vehicle(const State& state) const {
-        return state.junctions.yield_stops[at(left_turn_)].count > 0 ||
-               state.junctions.yield_stops[at(model_.graph.lanes[at(left_turn_)].origin)].count > 0;
+        return yield_stops_of(state, left_turn_).count > 0 ||
+               yield_stops_of(state, model_.graph.lanes[at(left_turn_)].origin).count > 0;
     }
 
     Model model_;
