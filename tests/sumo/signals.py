@@ -4,8 +4,9 @@
     signals.py FOLDER_OF_STOPLINE_PROGRAMS [FOLDER_OF_THE_PYTHON_PACKAGE] [--seeds N] [--only NAME]
 
 Both programs simulate the same network with the same vehicles. The table shows throughput, mean delay and mean green.
-Delay is the travel time minus the fastest one of the same turn, in the same program. Limits: 5 %, 10 % and 1 s. The
-exit code is 1 if a difference exceeds its limit, and 77 if SUMO or the Python package is missing.
+Delay is the travel time minus the fastest one of the same turn, in the same program. On yellow, the drivers of both
+programs stop if their maximum deceleration suffices, as is usual in SUMO. Limits: 5 %, 10 % and 1 s. The exit code
+is 1 if a difference exceeds its limit, and 77 if SUMO or the Python package is missing.
 """
 
 import argparse
@@ -30,6 +31,7 @@ SCENARIO = """
 fidelity: meso
 duration: {duration} s
 meso: table2
+driver: {{base: startup_kit, stop: {{decision_deceleration: 4.7 m/s2}}}}  # the deceleration of table2
 network: {{kind: sumo, net: ./signals.net.xml, routes: [./trips.xml]}}
 populations: [CTG-Ref]
 measure: {{baseline: CTG-Ref, window: {window} s}}
