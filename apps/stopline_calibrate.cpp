@@ -1,10 +1,12 @@
 // stopline-calibrate: step I fits the mesoscale mode to the times at which vehicles pass detectors in full dynamics.
 // Step II checks if throughput, density and travel time of the mesoscale mode lie in the confidence bands of full
 // dynamics.
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <sstream>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -12,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "base/input_error.h"
+#include "base/io/command_files.h"
 #include "base/io/data_directory.h"
 #include "base/io/output.h"
 #include "calibration/calibration.h"
@@ -355,8 +358,49 @@ std::string name_or_absolute_path(const std::string& text) {
     return is_path ? std::filesystem::absolute(text).lexically_normal().string() : text;
 }
 
+// Throws InputError for options that have no effect on the chosen steps.
+void check_options(const CalibrateCliOptions& options, const Options& app) {
+    const std::vector<std::string> of_fit{"--starts", "--evaluations", "--evaluations-per-start"};
+    const std::vector<std::string> of_step_one{"SWEEP", "--start", "--accepted"};
+    const std::vector<std::string> of_step_two{"--metrics-sweep", "--metric"};
+    const auto refuse = [&](const std::vector<std::string>& names, const char* condition) {
+        for (const std::string& name : app.given()) {
+            if (std::find(names.begin(), names.end(), name) == names.end()) continue;
+            throw InputError(fmt::format("{} has no effect with {}; leave one of them out", name, condition));
+        }
+    };
+    if (!options.parameters.empty()) refuse(of_fit, "--parameters");
+    if (options.step == "I") refuse(of_step_two, "--step I");
+    if (options.step != "II") return;
+    refuse(of_fit, "--step II");
+    refuse(of_step_one, "--step II");
+}
+
+// Throws InputError if a result would overwrite a file that the command reads.
+void check_files(const CalibrateCliOptions& options, const std::filesystem::path& folder) {
+    CommandFiles files;
+    const auto add_sweep = [&](const std::string& given, const char* shipped) {
+        const std::string file = given.empty() ? scenario_file(shipped) : given;
+        add_sweep_inputs(files, file, load_sweep(file), options.common.settings);
+    };
+    if (options.step != "II") add_sweep(options.timing_sweep, "calibration.yaml");
+    if (options.step != "I") add_sweep(options.metrics_sweep, "intersection.yaml");
+    for (const auto& [option, file] : {std::pair{"--start", options.start}, {"--reference", options.reference},
+                                       {"--parameters", options.parameters}, {"--accepted", options.accepted}}) {
+        std::error_code ignored;
+        if (std::filesystem::is_regular_file(file, ignored)) files.add_input(file, option);
+    }
+    const char* const role = "the results in the folder of --output";
+    if (options.step != "II") files.add_outputs(folder, {"permutations.csv", "differences.csv", "misses.csv"}, role);
+    if (options.step != "II" && options.parameters.empty()) {
+        files.add_outputs(folder, {"fitted.yaml", "fit_history.csv"}, role);
+    }
+    if (options.step != "I") files.add_output(folder / "parameters.yaml", role);
+}
+
 ExitCode calibrate(const CalibrateCliOptions& options) {
     const std::filesystem::path folder = options.common.output.empty() ? "out/calibration" : options.common.output;
+    check_files(options, folder);
     prepare_folder(folder);
     bool no_violations = true;
     MesoSettings chosen;
@@ -385,6 +429,7 @@ int main(int argc, char** argv) {
         CalibrateCliOptions options;
         declare(app, options);
         const std::optional<ExitCode> end = app.parse(argc, argv);
+        if (!end) check_options(options, app);
         return end ? *end : calibrate(options);
     });
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/input_error.h"
+#include "base/io/command_files.h"
 #include "base/io/output.h"
 #include "common/command_line.h"
 #include "common/examples.h"
@@ -151,12 +152,28 @@ double parse_limit_s(const std::string& text) {
     return time.si;
 }
 
+// Throws InputError if a file of the comparison would overwrite a file that the scenario names. Networks that SUMO runs
+// can lie in the folder of an earlier comparison.
+void check_files(const CompareCliOptions& options, const Scenario& scenario, const CommonOptions& common,
+                 const std::filesystem::path& folder) {
+    CommandFiles files;
+    add_scenario_inputs(files, options.file, common);
+    for (int k = 0; k < options.repetitions; ++k) {
+        files.add_outputs(folder / fmt::format("seed_{}", scenario.seed + static_cast<std::uint64_t>(k)),
+                          {"vehicles.rou.xml", "lights.add.xml", "detectors.add.xml", "run.sumocfg", "trips.out.xml",
+                           "summary.out.xml", "detectors.out.xml"},
+                          "the run of SUMO in the folder of --output");
+    }
+    files.add_outputs(folder, {"comparison.csv", "stop_lines.csv"}, "the results in the folder of --output");
+}
+
 ExitCode run(const CompareCliOptions& options) {
     CommonOptions common = options.common;
     set_mesoscale("stopline-compare", common);
     const double sumo_limit_s = parse_limit_s(options.sumo_limit);
     const Scenario scenario = load_with_options(options.file, common);
     const std::string folder = common.output.empty() ? "out/" + scenario.name + "_sumo" : common.output;
+    check_files(options, scenario, common, folder);
     const Comparison comparison = [&] {
         ProgressBar bar(fmt::format("{} runs of both programs", options.repetitions));
         CompareOptions compare;

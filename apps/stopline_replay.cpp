@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/input_error.h"
+#include "base/io/command_files.h"
 #include "base/io/output.h"
 #include "common/command_line.h"
 #include "common/examples.h"
@@ -56,11 +57,15 @@ ExitCode run(const ReplayCliOptions& options) {
         throw InputError(
             fmt::format("--until: '{}' is before --from '{}'; give a later time", options.until, options.from));
     }
-    RecordingReader reader(options.file);
-    const ReplayPage page = make_replay_page(reader, window, [](std::int64_t) { return !interrupted(); });
     const std::filesystem::path output = options.output.empty()
                                              ? std::filesystem::path(options.file).replace_extension(".html").string()
                                              : options.output;
+    CommandFiles files;
+    files.add_input(options.file, "the recording");
+    files.add_output(output, "--output");
+    RecordingReader reader(options.file);
+    prepare_output_file(output);
+    const ReplayPage page = make_replay_page(reader, window, [](std::int64_t) { return !interrupted(); });
     write_file(output, page.html);
     fmt::print("{}: {} frames from {:g} to {:g} s, up to {} vehicles, {:.2f} MB\n", output.string(), page.frames,
                page.from_s, page.to_s, page.max_present, static_cast<double>(page.html.size()) * 1e-6);

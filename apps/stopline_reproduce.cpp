@@ -10,6 +10,7 @@
 #include "base/input_error.h"
 #include "base/io/data_directory.h"
 #include "common/command_line.h"
+#include "common/console.h"
 #include "common/examples.h"
 #include "common/program.h"
 #include "common/progress_bar.h"
@@ -85,13 +86,12 @@ ExitCode run(const ReproduceCliOptions& user) {
     fmt::print("\nWritten to {}\n  index.html\n  figures/  SVG and PNG\n  tables/   CSV\n", options.folder.string());
     fmt::print("\nNext: open the report in a browser\n  file://{}\n",
                std::filesystem::absolute(options.folder / "index.html").lexically_normal().string());
-    for (const std::string& problem : content.problems) fmt::print(stderr, "stopline-reproduce: failed: {}\n", problem);
-    if (!content.problems.empty()) fmt::print(stderr, "Repeat the command to try the failed parts again.\n");
+    for (const std::string& problem : content.problems) print_message("stopline-reproduce: failed: {}\n", problem);
+    if (!content.problems.empty()) print_message("Repeat the command to try the failed parts again.\n");
     double violations = 0.0;
     for (const JobResult& end : jobs) violations += static_cast<double>(end.output.violations);
     if (violations > 0.0) {
-        fmt::print(
-            stderr,
+        print_message(
             "stopline-reproduce: VIOLATIONS (overlaps, entries on red or lost vehicles) in the runs of the report\n");
     }
     return content.problems.empty() && violations == 0.0 ? ExitCode::done : ExitCode::check_failed;

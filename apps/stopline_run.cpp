@@ -13,8 +13,10 @@
 #include <fmt/ranges.h>
 
 #include "base/input_error.h"
+#include "base/io/command_files.h"
 #include "base/io/output.h"
 #include "common/command_line.h"
+#include "common/console.h"
 #include "common/examples.h"
 #include "common/intersection_text.h"
 #include "common/network_text.h"
@@ -80,8 +82,10 @@ void declare(Options& app, RunCliOptions& options) {
     app.add("--trajectories-file", options.trajectories_file,
             "With --trajectories: file in the results folder. A file that ends with .gz or .zst is compressed")
         .type_name("FILE")
+        .only_with({"--trajectories"})
         .show_default();
     app.add("--interval", options.interval, "With --trajectories: time between samples (default: 0.1 s)")
+        .only_with({"--trajectories"})
         .type_name("TIME");
     add_run_files_options(app, options.files);
     add_old_column_names_option(app, options.common);
@@ -305,6 +309,32 @@ const Reporter& reporter_of(const Scenario& scenario) {
     return *std::find_if(kReporters.begin(), kReporters.end(), [&](const Reporter& one) { return one.name == name; });
 }
 
+// Returns the names of all tables that a run of this kind can write into its folder, except the trajectories.
+std::vector<std::string> table_names(const Scenario& scenario, ColumnNames names) {
+    const std::string group = table_group(scenario.network) + "/";
+    std::vector<std::string> files{scenario.name + ".provenance.json"};
+    for (const TableDoc& table : table_docs()) {
+        if (!table.name.starts_with(group)) continue;
+        std::string file(table.name.substr(group.size()));
+        if (file != kTrajectoriesName) files.push_back(result_file(table.name, std::move(file), "", names).name);
+    }
+    return files;
+}
+
+// Throws InputError if an output of the run would overwrite an input, another output, or a figure.
+void check_files(const RunCliOptions& options, const Scenario& scenario, const std::filesystem::path& folder,
+                 const RunFiles& run_files, bool streams_trajectories) {
+    CommandFiles files;
+    add_scenario_inputs(files, options.file, options.common);
+    const ColumnNames names = options.common.old_column_names ? ColumnNames::old : ColumnNames::current;
+    files.add_outputs(folder, table_names(scenario, names), "the tables in the folder of --output");
+    if (options.trajectories && !streams_trajectories) {
+        files.add_output(folder / options.trajectories_file, "--trajectories-file");
+    }
+    run_files.add_outputs(files);
+    if (!options.no_figures) run_files.refuse_names_of_figures(folder);
+}
+
 ExitCode run(const RunCliOptions& options) {
     if (options.describe) return fmt::print("{}", describe_fields()), ExitCode::done;
     if (options.describe_markdown) return fmt::print("{}", fields_markdown()), ExitCode::done;
@@ -315,10 +345,10 @@ ExitCode run(const RunCliOptions& options) {
         throw InputError(runnable("no scenario file given; try: stopline-run scenarios/single_light.yaml (or --help)"));
     }
     const Scenario scenario = load_with_options(options.file, options.common);
-    for (const std::string& line : sumo_warnings(scenario)) fmt::print(stderr, "SUMO import: {}\n", line);
-    for (const std::string& line : sumo_notes(scenario)) fmt::print(stderr, "note: {}\n", line);
+    for (const std::string& line : sumo_warnings(scenario)) print_message("SUMO import: {}\n", line);
+    for (const std::string& line : sumo_notes(scenario)) print_message("note: {}\n", line);
     if (const std::string warning = sumo_demand_warning(scenario); !warning.empty()) {
-        fmt::print(stderr, "warning: {}\n", warning);
+        print_message("warning: {}\n", warning);
     }
     const double interval_s = trajectory_interval_s(options, scenario);
     const std::filesystem::path folder = options.common.output.empty() ? "out/" + scenario.name : options.common.output;
@@ -330,7 +360,10 @@ ExitCode run(const RunCliOptions& options) {
         files.trajectory_interval_s = interval_s;
     }
     RunFiles run_files(files, scenario, command_text("stopline-run", options.file, options.common));
+    check_files(options, scenario, folder, run_files, reporter.streams_trajectories);
     prepare_folder(folder);
+    run_files.prepare();
+    if (options.trajectories && !reporter.streams_trajectories) prepare_output_file(folder / options.trajectories_file);
     return reporter.run(options, scenario, interval_s, folder, run_files);
 }
 

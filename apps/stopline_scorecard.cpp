@@ -4,9 +4,11 @@
 #include <fmt/core.h>
 #include <fmt/format.h>
 
+#include "base/io/command_files.h"
 #include "base/io/data_directory.h"
 #include "base/io/output.h"
 #include "common/command_line.h"
+#include "common/console.h"
 #include "common/examples.h"
 #include "common/program.h"
 #include "common/progress_bar.h"
@@ -87,7 +89,7 @@ Scorecard score(const ScorecardCliOptions& options, const std::filesystem::path&
     scorecard.threads = thread_count(options.common.threads);
     ProgressBar bar("measuring");
     scorecard.on_progress = [&bar](double share) { return bar.update(share); };
-    scorecard.on_message = [](const std::string& message) { fmt::print(stderr, "{}\n", message); };
+    scorecard.on_message = [](const std::string& message) { print_message("{}\n", message); };
     return make_scorecard(scorecard);
 }
 
@@ -106,9 +108,25 @@ void write_results_page(const ScorecardCliOptions& options, const Scorecard& sco
     write_file(options.markdown, results_markdown(scorecard, command, append ? read_file(findings) : ""));
 }
 
+// Adds all scenarios and data files to the inputs, except the results page, which the command may write again.
+void add_shipped_inputs(CommandFiles& files) {
+    for (const std::filesystem::path& folder : {data_directory(), scenario_directory()}) {
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+            if (entry.is_regular_file() && entry.path().filename() != "RESULTS.md") {
+                files.add_input(entry.path(), "the shipped data");
+            }
+        }
+    }
+}
+
 ExitCode run(const ScorecardCliOptions& options) {
     const std::filesystem::path folder = options.common.output.empty() ? "out/scorecard" : options.common.output;
+    CommandFiles files;
+    add_shipped_inputs(files);
+    files.add_outputs(folder, {"scorecard.csv", "scorecard.provenance.json"}, "the results in the folder of --output");
+    files.add_output(options.markdown, "--markdown");
     prepare_folder(folder);
+    if (!options.markdown.empty()) prepare_output_file(options.markdown);
     const Scorecard scorecard = score(options, folder);
     print_warnings(scorecard.warnings);
     const std::string csv = scorecard_csv(scorecard);
@@ -130,7 +148,7 @@ ExitCode run(const ScorecardCliOptions& options) {
                    runnable(fmt::format("{}", fmt::join(commands_behind(scorecard.rows), "\n  "))));
     }
     if (scorecard.violations > 0.0) {
-        fmt::print(stderr, "VIOLATIONS in the runs of this table (overlaps, entries on red, lost vehicles): {:.0f}\n",
+        print_message("VIOLATIONS in the runs of this table (overlaps, entries on red, lost vehicles): {:.0f}\n",
                    scorecard.violations);
         return ExitCode::check_failed;
     }

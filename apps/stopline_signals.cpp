@@ -10,8 +10,10 @@
 #include <fmt/format.h>
 
 #include "base/input_error.h"
+#include "base/io/command_files.h"
 #include "base/io/output.h"
 #include "common/command_line.h"
+#include "common/console.h"
 #include "common/examples.h"
 #include "common/program.h"
 #include "common/progress_bar.h"
@@ -55,15 +57,22 @@ void declare(Options& app, SignalsCliOptions& options) {
     app.add_flag("--pedestrians", options.pedestrians, "Make greens long enough for pedestrians who cross a leg");
     app.add_flag("--search", options.search, "Run all combinations of some greens and offsets around the start values");
     app.add("--objective", options.objective, "With --search: minimise delay, or maximise throughput (default: delay)")
+        .only_with({"--search"})
         .one_of({"delay", "throughput"});
-    app.add("--seeds", options.seeds, "With --search: number of runs of each setting").range(1, 1000).show_default();
+    app.add("--seeds", options.seeds, "With --search: number of runs of each setting")
+        .only_with({"--search"})
+        .range(1, 1000)
+        .show_default();
     app.add("--greens", options.greens, "With --search: number of values for each green, odd")
+        .only_with({"--search"})
         .range(1, 99)
         .show_default();
     app.add("--range", options.range, "With --search: greens from start value / NUMBER to start value x NUMBER")
+        .only_with({"--search"})
         .type_name("NUMBER")
         .show_default();
     app.add("--offsets", options.offsets, "With --search: number of offsets, in networks of several intersections")
+        .only_with({"--search"})
         .range(1, 100)
         .show_default();
     app.add_flag("--no-figures", options.no_figures, "Do not draw figures");
@@ -103,14 +112,6 @@ void check_options(const SignalsCliOptions& options) {
                         "the middle",
                         options.greens));
     }
-    const SignalsCliOptions defaults;
-    const bool sets_search = !options.objective.empty() || options.seeds != defaults.seeds ||
-                             options.greens != defaults.greens || options.offsets != defaults.offsets ||
-                             options.range != defaults.range;
-    if (!options.search && sets_search) {
-        throw InputError(
-            "--objective, --seeds, --greens, --offsets and --range have an effect only with --search; add it");
-    }
 }
 
 std::filesystem::path folder_of(const SignalsCliOptions& options) {
@@ -135,6 +136,18 @@ std::string command_of(const SignalsCliOptions& options) {
     add("--offsets", std::to_string(options.offsets), std::to_string(defaults.offsets));
     add("--range", options.range, defaults.range);
     return command;
+}
+
+// Throws InputError if a result would overwrite a file that the scenario names.
+void check_files(const SignalsCliOptions& options, const Scenario& scenario) {
+    CommandFiles files;
+    add_scenario_inputs(files, options.file, options.common);
+    std::vector<std::string> names{"timing.csv", "lanes.csv", "search.csv", "signals.provenance.json"};
+    for (const PopulationSettings& population : scenario.populations) {
+        names.push_back("search_" + population.name + ".csv");
+        names.push_back("search_" + population.name + ".sqlite");
+    }
+    files.add_outputs(folder_of(options), names, "the results in the folder of --output");
 }
 
 // The search of one population: its sweep, its open store, and the numbers of the runs that the store lacks.
@@ -215,7 +228,7 @@ SearchOutcome search_times(const Scenario& scenario, const std::vector<Populatio
     try {
         run_searches(prepared, timing.threads);
     } catch (const Interrupted&) {
-        fmt::print(stderr, "stopline-signals: finished runs are stored; the same command continues with the others\n");
+        print_message("stopline-signals: finished runs are stored; the same command continues with the others\n");
         throw;
     }
     for (const PreparedSearch& one : prepared) {
@@ -295,6 +308,7 @@ ExitCode run(const SignalsCliOptions& options) {
     timing.threads = thread_count(options.common.threads);
     timing.min_green_s = option_quantity("--min-green", options.min_green, "s", 1.0, 300.0);
     timing.pedestrians = options.pedestrians;
+    check_files(options, scenario);
     search.overrides = options.common.settings;
     search.file = options.file;
     search.seeds = options.seeds;
@@ -318,7 +332,7 @@ ExitCode run(const SignalsCliOptions& options) {
     print_times(options, scenario, timings, search, outcome.searches);
     const bool violated = std::any_of(timings.begin(), timings.end(),
                                       [](const PopulationTiming& one) { return one.saturation.has_violations; });
-    if (violated || outcome.has_violations) fmt::print(stderr, "stopline-signals: a run has violations\n");
+    if (violated || outcome.has_violations) print_message("stopline-signals: a run has violations\n");
     const bool any = std::any_of(timings.begin(), timings.end(), is_oversaturated);
     return any || violated || outcome.has_violations ? ExitCode::check_failed : ExitCode::done;
 }

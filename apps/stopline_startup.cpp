@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/input_error.h"
+#include "base/io/command_files.h"
 #include "base/io/data_directory.h"
 #include "base/io/output.h"
 #include "base/nearest_name.h"
@@ -51,7 +52,9 @@ void declare(Options& app, StartupCliOptions& options) {
         "--fit", options.fit,
         "Fit the acceleration profile, the speed gain and the acceleration of human drivers to the mean of the "
         "measured starts");
-    app.add("--write", options.write, "With --fit: write the fitted driver to this file (YAML)").type_name("FILE");
+    app.add("--write", options.write, "With --fit: write the fitted driver to this file (YAML)")
+        .only_with({"--fit"})
+        .type_name("FILE");
     app.add_flag("--no-figures", options.no_figures, "Do not draw figures");
     add_common_options(app, options.common, "Folder for the results (default: out/startup)");
     add_set_option(app, options.common);
@@ -67,6 +70,10 @@ void declare(Options& app, StartupCliOptions& options) {
 
 std::filesystem::path measured_file(const StartupCliOptions& options) {
     return options.measured.empty() ? data_directory() / kMeasuredStarts : std::filesystem::path(options.measured);
+}
+
+std::filesystem::path output_folder(const StartupCliOptions& options) {
+    return options.common.output.empty() ? "out/startup" : options.common.output;
 }
 
 void fit_driver(const StartupCliOptions& options, const StartupCurve& curve, Scenario& scenario) {
@@ -108,14 +115,13 @@ std::string command_of(const StartupCliOptions& options) {
 }
 
 void write_results(const StartupCliOptions& options, const Scenario& scenario, const StartupReport& report) {
-    const std::filesystem::path folder = options.common.output.empty() ? "out/startup" : options.common.output;
+    const std::filesystem::path folder = output_folder(options);
     Figure figure = startup_figure(report);
     for (auto& [name, text] : figure.data) {
         text = result_file("startup/" + name, name, std::move(text), column_names(options.common)).text;
     }
     Provenance provenance;
     provenance.command = command_of(options);
-    prepare_folder(folder);
     fmt::print("\nWritten to {}\n", folder.string());
     for (const auto& [name, text] : figure.data) {
         write_file(folder / name, text);
@@ -134,11 +140,20 @@ void write_results(const StartupCliOptions& options, const Scenario& scenario, c
 }
 
 ExitCode run(const StartupCliOptions& options) {
-    if (!options.write.empty() && !options.fit) throw InputError("--write needs --fit; add --fit to fit a driver");
-    if (!options.write.empty()) prepare_folder(std::filesystem::absolute(options.write).parent_path());
-    Scenario scenario = load_with_options(
-        options.file.empty() ? (scenario_directory() / "single_light.yaml").string() : options.file, options.common);
+    const std::string file =
+        options.file.empty() ? (scenario_directory() / "single_light.yaml").string() : options.file;
+    Scenario scenario = load_with_options(file, options.common);
     const StartupCurve curve = load_startup_curve(measured_file(options));
+    CommandFiles files;
+    add_scenario_inputs(files, file, options.common);
+    files.add_input(measured_file(options), "--measured");
+    files.add_outputs(output_folder(options),
+                      {"startup.csv", "startup_fine.csv", "startup.provenance.json", "startup.gp", "startup.svg",
+                       "startup.png"},
+                      "the results in the folder of --output");
+    files.add_output(options.write, "--write");
+    prepare_folder(output_folder(options));
+    if (!options.write.empty()) prepare_output_file(options.write);
     if (options.fit) fit_driver(options, curve, scenario);
     const StartupReport report = report_startup(scenario, curve);
     fmt::print("Start of vehicle {} with driver {}, compared with {}\n\n{}", report.vehicle, report.driver,

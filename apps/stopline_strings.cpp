@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/input_error.h"
+#include "base/io/command_files.h"
 #include "base/io/data_directory.h"
 #include "base/io/output.h"
 #include "base/units.h"
@@ -79,8 +80,10 @@ void declare(Options& app, StringsCliOptions& options) {
         "--sweep", options.sweep,
         "Vary the V2V delay and the time gap of the first population, and find the border of string stability");
     app.add("--delays", options.delays, fmt::format("With --sweep: V2V delays (default: {})", kDefaultDelays))
+        .only_with({"--sweep"})
         .type_name("LIST");
     app.add("--time-gaps", options.time_gaps, fmt::format("With --sweep: time gaps (default: {})", kDefaultTimeGaps))
+        .only_with({"--sweep"})
         .type_name("LIST");
     app.add_flag("--no-figures", options.no_figures, "Do not draw figures");
     add_common_options(app, options.common, "Folder for the results (default: out/strings)");
@@ -176,12 +179,16 @@ std::string command_of(const StringsCliOptions& options) {
     return command;
 }
 
+std::filesystem::path output_folder(const StringsCliOptions& options) {
+    return options.common.output.empty() ? "out/strings" : options.common.output;
+}
+
 using NamedText = std::pair<std::string, std::string>;
 
 void write_results(const StringsCliOptions& options, const Scenario& scenario, const std::vector<NamedText>& tables,
                    const std::vector<std::pair<std::string, std::string>>& state_hashes,
                    const std::vector<Figure>& figures) {
-    const std::filesystem::path folder = options.common.output.empty() ? "out/strings" : options.common.output;
+    const std::filesystem::path folder = output_folder(options);
     Provenance provenance;
     provenance.command = command_of(options);
     provenance.state_hashes = state_hashes;
@@ -240,16 +247,19 @@ ExitCode run_report(const StringsCliOptions& options, const Scenario& scenario, 
 }
 
 ExitCode run(const StringsCliOptions& options) {
-    Scenario scenario = load_with_options(
-        options.file.empty() ? (scenario_directory() / "single_light.yaml").string() : options.file, options.common);
+    const std::string file =
+        options.file.empty() ? (scenario_directory() / "single_light.yaml").string() : options.file;
+    Scenario scenario = load_with_options(file, options.common);
     choose_populations(options.populations, scenario);
     check_platoon_scenario(scenario);
     const StringOptions strings = string_options(options, scenario);
-    if (!options.sweep && !options.delays.empty()) throw InputError("--delays has an effect only with --sweep; add it");
-    if (!options.sweep && !options.time_gaps.empty()) {
-        throw InputError("--time-gaps has an effect only with --sweep; add it");
-    }
-    prepare_folder(options.common.output.empty() ? "out/strings" : options.common.output);
+    CommandFiles files;
+    add_scenario_inputs(files, file, options.common);
+    files.add_outputs(output_folder(options),
+                      {"summary.csv", "positions.csv", "gains.csv", "sweep.csv", "border.csv",
+                       "strings.provenance.json"},
+                      "the results in the folder of --output");
+    prepare_folder(output_folder(options));
     return options.sweep ? run_sweep(options, scenario, strings) : run_report(options, scenario, strings);
 }
 

@@ -12,10 +12,12 @@
 #include <fmt/format.h>
 
 #include "base/input_error.h"
+#include "base/io/command_files.h"
 #include "base/io/csv.h"
 #include "base/io/data_directory.h"
 #include "base/io/output.h"
 #include "common/command_line.h"
+#include "common/console.h"
 #include "common/examples.h"
 #include "common/program.h"
 #include "common/progress_bar.h"
@@ -37,6 +39,7 @@ namespace {
 using namespace stopline;
 
 constexpr std::size_t kMaxFailuresShown = 5;
+constexpr const char* kTable1 = "table1.csv";
 
 struct SweepCliOptions {
     CommonOptions common;
@@ -137,13 +140,23 @@ struct PreparedSweep {
     std::vector<std::size_t> todo;
 };
 
+// Returns the path of the table with the means over the seeds.
+std::filesystem::path means_file(const SweepFiles& files) {
+    return files.table.parent_path() / (files.table.stem().string() + "_means.csv");
+}
+
 PreparedSweep prepare(const SweepCliOptions& options, int threads) {
     const Shard shard = parse_shard(options.shard);
     Sweep sweep = expand_sweep(options, threads);
     const std::filesystem::path folder =
         options.common.output.empty() ? "out/" + sweep.settings().name : options.common.output;
-    prepare_folder(folder);
     SweepFiles files = sweep_files(folder, sweep.settings().name, shard);
+    CommandFiles command_files;
+    add_sweep_inputs(command_files, options.file, sweep.settings(), options.common.settings);
+    for (const auto& file : {files.store, files.table, files.provenance, means_file(files), folder / kTable1}) {
+        command_files.add_output(file, "the results in the folder of --output");
+    }
+    prepare_folder(folder);
     RunStore store = open_store(sweep, shard, files, options);
     std::vector<std::size_t> todo = missing_points(sweep, shard, store);
     return {std::move(sweep), shard, std::move(files), std::move(store), std::move(todo)};
@@ -231,12 +244,12 @@ void print_session(const SweepSession& session, const std::string& workers) {
 }
 
 ExitCode report_failures(const PreparedSweep& work, const SweepSession& session) {
-    fmt::print(stderr, "stopline-sweep: {} runs failed; all others are stored:\n", session.failures.size());
+    print_message("stopline-sweep: {} runs failed; all others are stored:\n", session.failures.size());
     for (std::size_t i = 0; i < session.failures.size() && i < kMaxFailuresShown; ++i) {
         const SweepFailure& failure = session.failures[i];
-        fmt::print(stderr, "  run {} ({}): {}\n", failure.point, work.sweep.describe(failure.point), failure.message);
+        print_message("  run {} ({}): {}\n", failure.point, work.sweep.describe(failure.point), failure.message);
     }
-    fmt::print(stderr, "No table is written. Repeat the command to try the failed runs again.\n");
+    print_message("No table is written. Repeat the command to try the failed runs again.\n");
     return ExitCode::check_failed;
 }
 
@@ -305,8 +318,8 @@ std::string draw_results(const Sweep& sweep, const std::string& csv, const std::
         return next;
     }
     if (is_of_reference_intersection(sweep)) {
-        write_file(file.parent_path() / "table1.csv", table1_csv(results, load_targets()));
-        fmt::print("  table1.csv\n");
+        write_file(file.parent_path() / kTable1, table1_csv(results, load_targets()));
+        fmt::print("  {}\n", kTable1);
         print_throughput_trends(throughput_trends(results));
     }
     draw_figures(turn_figures(results), file.parent_path());
@@ -372,13 +385,13 @@ ExitCode run_sweep(const SweepCliOptions& options, Ranks& ranks) {
         } catch (const Interrupted&) {
             const std::size_t missing = missing_points(work->sweep, work->shard, work->store).size();
             const std::size_t runs = count_runs(work->sweep, work->shard);
-            fmt::print(stderr, "stopline-sweep: {} of {} runs are stored; the same command continues with the others\n",
+            print_message("stopline-sweep: {} of {} runs are stored; the same command continues with the others\n",
                        runs - missing, runs);
             throw;
         }
     }();
     if (ranks.lost() > 0) {
-        fmt::print(stderr, "stopline-sweep: {} of {} ranks died; the others did their runs\n", ranks.lost(),
+        print_message("stopline-sweep: {} of {} ranks died; the others did their runs\n", ranks.lost(),
                    ranks.count());
     }
     const std::string workers = ranks.count() > 1 ? fmt::format("{} ranks", ranks.count() - 1)
@@ -421,6 +434,14 @@ ExitCode run(const SweepCliOptions& options, Ranks& ranks) {
     return ExitCode::done;
 }
 
+// Throws InputError for an option before the subcommand merge. Such an option has no effect on merging.
+void check_merge_options(const Options& app) {
+    for (const std::string& name : app.given()) {
+        if (name != "--old-column-names")
+            throw InputError(fmt::format("{} before 'merge' has no effect; see stopline-sweep merge --help", name));
+    }
+}
+
 // Discards all output of this process. Ranks other than 0 do this, because they would repeat the messages of rank 0.
 void silence_output() {
     if (std::freopen("/dev/null", "w", stdout) == nullptr || std::freopen("/dev/null", "w", stderr) == nullptr) return;
@@ -429,6 +450,7 @@ void silence_output() {
 }  // namespace
 
 int main(int argc, char** argv) {
+    open_closed_streams();  // before MPI opens files of its own
     Ranks ranks;
     if (ranks.rank() != 0) silence_output();
     const int exit_code = run_program("stopline-sweep", [&] {
@@ -436,7 +458,9 @@ int main(int argc, char** argv) {
                     "stopline-sweep");
         SweepCliOptions options;
         declare(app, options);
+        if (ranks.rank() != 0) end_at_once_on_termination();
         const std::optional<ExitCode> end = app.parse(argc, argv);
+        if (!end && options.merge->parsed()) check_merge_options(app);
         return end ? *end : run(options, ranks);
     });
     ranks.leave(exit_code);

@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <iterator>
 #include <set>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "base/input_error.h"
 #include "base/nearest_name.h"
+#include "common/console.h"
 #include "common/examples.h"
 #include "common/text_table.h"
 #include "runs/metrics/metric_groups.h"
+#include "scenario/files/scenario_files.h"
 #include "scenario/fleets.h"
 #include "scenario/kinds/network_kind.h"
 #include "scenario/load_scenario.h"
@@ -85,16 +88,42 @@ ColumnNames column_names(const CommonOptions& options) {
 void print_warnings(const std::vector<std::string>& warnings) {
     static std::set<std::string> printed;
     for (const std::string& warning : warnings) {
-        if (printed.insert(warning).second) fmt::print(stderr, "warning: {}\n", warning);
+        if (printed.insert(warning).second) print_message("warning: {}\n", warning);
     }
 }
 
 Scenario load_with_options(const std::string& file, const CommonOptions& options) {
     std::vector<std::string> settings = options.settings;
+    if (options.seed && std::any_of(settings.begin(), settings.end(),
+                                    [](const std::string& text) { return text.starts_with("seed="); })) {
+        throw InputError("--seed and --set 'seed=...' both set the seed; give one of them");
+    }
     if (options.seed) settings.push_back(fmt::format("seed={}", *options.seed));
     Scenario scenario = load_scenario(file, settings);
     print_warnings(scenario.warnings);
     return scenario;
+}
+
+void add_scenario_inputs(CommandFiles& files, const std::string& file, const CommonOptions& options) {
+    for (const std::filesystem::path& input : scenario_files(file, options.settings)) {
+        files.add_input(input, input == file ? "the scenario" : "a file that the scenario names");
+    }
+}
+
+void add_sweep_inputs(CommandFiles& files, const std::string& sweep_file, const SweepSettings& sweep,
+                      const std::vector<std::string>& overrides) {
+    files.add_input(sweep_file, "the sweep file");
+    CommonOptions options;
+    options.settings = overrides;
+    add_scenario_inputs(files, sweep.scenario, options);
+    const std::filesystem::path directory = std::filesystem::path(sweep.scenario).parent_path();
+    for (const SweepAxis& axis : sweep.axes) {
+        for (const std::string& value : axis.values) {
+            std::error_code ignored;
+            const std::filesystem::path file = directory / value;
+            if (std::filesystem::is_regular_file(file, ignored)) files.add_input(file, "the axis " + axis.name);
+        }
+    }
 }
 
 std::string settings_hint(const std::string& file, const CommonOptions& options, const std::string& purpose,
@@ -120,10 +149,12 @@ std::string settings_hint(const std::string& file, const CommonOptions& options,
 
 void set_mesoscale(const char* program, CommonOptions& options) {
     const std::string mesoscale = "fidelity=meso";
-    for (const std::string& setting : options.settings) {
-        if (!setting.starts_with("fidelity=") || setting == mesoscale) continue;
-        fmt::print(stderr, "{}: '{}' is not used: this program runs the mesoscale mode only\n", program, setting);
-    }
+    std::erase_if(options.settings, [&](const std::string& setting) {
+        if (!setting.starts_with("fidelity=")) return false;
+        if (setting != mesoscale)
+            print_message("{}: '{}' is not used: this program runs the mesoscale mode only\n", program, setting);
+        return true;
+    });
     options.settings.push_back(mesoscale);
 }
 

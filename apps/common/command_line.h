@@ -7,9 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "base/io/command_files.h"
 #include "common/options.h"
 #include "runs/tables/column_aliases.h"
 #include "scenario/scenario.h"
+#include "scenario/sweep_file/sweep_settings.h"
 
 namespace stopline {
 
@@ -39,6 +41,14 @@ void print_warnings(const std::vector<std::string>& warnings);
 // Loads the scenario, applies --set and --seed, and prints the warnings of loading. Throws InputError if the scenario
 // is invalid.
 Scenario load_with_options(const std::string& file, const CommonOptions& options);
+
+// Adds the scenario file and all files that it names to the inputs of the command. Call it after load_with_options().
+void add_scenario_inputs(CommandFiles& files, const std::string& file, const CommonOptions& options);
+
+// Adds the sweep file, its scenario, and all files that they name to the inputs of the command. `overrides` are the
+// settings of the whole sweep.
+void add_sweep_inputs(CommandFiles& files, const std::string& sweep_file, const SweepSettings& sweep,
+                      const std::vector<std::string>& overrides);
 
 // Returns a line of the 'Next:' hint, such as "  other greens: add --set 'signal.green=10 s'". Leaves out each setting
 // that the scenario refuses. Returns an empty text if it refuses all of them.

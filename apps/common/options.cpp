@@ -6,7 +6,9 @@
 #include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
+#include "base/input_error.h"
 #include "base/version.h"
+#include "common/console.h"
 #include "common/examples.h"
 #include "scenario/schema/quantity.h"
 
@@ -22,6 +24,10 @@ std::uint64_t parse_seed(const std::string& names, const std::string& text) {
                                    fmt::format("value '{}' {}; give a whole number such as 1", text, seed.problem));
     }
     return seed.value;
+}
+
+std::string problem_of_empty_text(const std::string& text) {
+    return text.empty() ? "the value is empty; give a text, or leave the option out" : "";
 }
 
 }  // namespace
@@ -67,6 +73,11 @@ Option& Option::show_default() {
     return *this;
 }
 
+Option& Option::only_with(const std::vector<std::string>& others) {
+    options_.dependents_.push_back({option_, others});
+    return *this;
+}
+
 Options::Options(const std::string& description, const std::string& program)
     : app_(new CLI::App(description, program)), owns_app_(true) {
     app_->get_formatter()->column_width(34);
@@ -80,25 +91,30 @@ Options::~Options() {
     if (owns_app_) delete app_;
 }
 
+Option Options::add_text(CLI::Option* option) {
+    option->check(problem_of_empty_text, "");
+    return {option, *this};
+}
+
 Option Options::add(const std::string& names, std::string& value, const std::string& help) {
-    return Option(app_->add_option(names, value, help));
+    return add_text(app_->add_option(names, value, help));
 }
 
 Option Options::add(const std::string& names, int& value, const std::string& help) {
-    return Option(app_->add_option(names, value, help));
+    return {app_->add_option(names, value, help), *this};
 }
 
 Option Options::add(const std::string& names, std::optional<std::uint64_t>& value, const std::string& help) {
     const auto store = [&value, names](const std::string& text) { value = parse_seed(names, text); };
-    return Option(app_->add_option_function<std::string>(names, store, help)).type_name("S");
+    return Option(app_->add_option_function<std::string>(names, store, help), *this).type_name("S");
 }
 
 Option Options::add(const std::string& names, std::vector<std::string>& values, const std::string& help) {
-    return Option(app_->add_option(names, values, help));
+    return add_text(app_->add_option(names, values, help));
 }
 
 Option Options::add_flag(const std::string& names, bool& value, const std::string& help) {
-    return Option(app_->add_flag(names, value, help));
+    return {app_->add_flag(names, value, help), *this};
 }
 
 Options& Options::add_subcommand(const std::string& name, const std::string& help) {
@@ -107,6 +123,35 @@ Options& Options::add_subcommand(const std::string& name, const std::string& hel
 }
 
 bool Options::parsed() const { return app_->parsed(); }
+
+std::vector<std::string> Options::given() const {
+    std::vector<std::string> names;
+    for (const CLI::Option* const option : app_->get_options()) {
+        if (option->count() > 0) names.push_back(option->get_name());
+    }
+    return names;
+}
+
+void Options::check_dependents() const {
+    for (const Dependent& dependent : dependents_) {
+        const auto is_given = [&](const std::string& other) { return app_->get_option(other)->count() > 0; };
+        if (dependent.option->count() == 0) continue;
+        if (std::any_of(dependent.others.begin(), dependent.others.end(), is_given)) continue;
+        throw InputError(fmt::format("{} has an effect only with {}; add it", dependent.option->get_name(),
+                                     fmt::join(dependent.others, " or ")));
+    }
+    for (const Options* const subcommand : subcommands_) subcommand->check_dependents();
+}
+
+std::string Options::first_argument() const {
+    for (const CLI::Option* const option : app_->get_options()) {
+        if (option->get_positional() && option->count() > 0) return option->results().front();
+    }
+    for (const Options* const subcommand : subcommands_) {
+        if (std::string argument = subcommand->first_argument(); !argument.empty()) return argument;
+    }
+    return {};
+}
 
 const std::vector<std::string>& Options::accept_others() {
     app_->allow_extras();
@@ -119,11 +164,13 @@ std::optional<ExitCode> Options::parse(int argc, const char* const* argv) {
     try {
         app_->parse(argc, argv);
         others_ = app_->remaining();
+        check_dependents();
+        set_input_name(first_argument());
     } catch (const CLI::Success& success) {
         app_->exit(success);  // prints the help or the version
         return ExitCode::done;
     } catch (const CLI::ParseError& error) {
-        fmt::print(stderr, "{}: {}\nTry: {} --help\n", app_->get_name(), error.what(),
+        print_message("{}: {}\nTry: {} --help\n", app_->get_name(), error.what(),
                    program_command(app_->get_name()));
         return ExitCode::bad_input;
     }

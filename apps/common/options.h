@@ -16,10 +16,12 @@ class Option;
 
 namespace stopline {
 
+class Options;
+
 // Handle to one option, to set its details. Each function returns the handle itself.
 class Option {
 public:
-    explicit Option(CLI::Option* option) : option_(option) {}
+    Option(CLI::Option* option, Options& options) : option_(option), options_(options) {}
 
     Option& required();
     // Sets the placeholder of the value in the help text, such as FILE.
@@ -32,9 +34,12 @@ public:
     Option& one_value_each();
     // Shows the initial value of the variable as default in the help text.
     Option& show_default();
+    // Refuses the option unless the command line has one of these other options, without which it has no effect.
+    Option& only_with(const std::vector<std::string>& others);
 
 private:
     CLI::Option* option_;
+    Options& options_;
 };
 
 // The options of a program or of one of its subcommands. Parsing stores values in the variables passed to add(), which
@@ -49,7 +54,8 @@ public:
     Options& operator=(const Options&) = delete;
     Options& operator=(Options&&) = delete;
 
-    // Adds an option or a positional argument. `names` follows CLI11: "--output", "FILE", "-n,--name".
+    // Adds an option or a positional argument. `names` follows CLI11: "--output", "FILE", "-n,--name". An option that
+    // takes text refuses an empty text.
     Option add(const std::string& names, std::string& value, const std::string& help);
     Option add(const std::string& names, int& value, const std::string& help);
     // Adds an option for a seed, which is a whole number.
@@ -62,6 +68,8 @@ public:
     Options& add_subcommand(const std::string& name, const std::string& help);
     // Returns true if the command line named this subcommand.
     bool parsed() const;
+    // Returns the names of the options and arguments that the command line gives, without those of subcommands.
+    std::vector<std::string> given() const;
 
     // Accepts options that have not been added. parse() stores them in the returned list.
     const std::vector<std::string>& accept_others();
@@ -74,11 +82,24 @@ public:
     std::optional<ExitCode> parse(int argc, const char* const* argv);
 
 private:
+    friend class Option;
+    // An option that has an effect only with one of the `others`.
+    struct Dependent {
+        CLI::Option* option;
+        std::vector<std::string> others;
+    };
+
     explicit Options(CLI::App* subcommand);
+    Option add_text(CLI::Option* option);
+    // Throws InputError if the command line has an option without another one that it needs.
+    void check_dependents() const;
+    // Returns the first argument that is not an option, such as the scenario; empty if there is none.
+    std::string first_argument() const;
 
     CLI::App* app_;
     bool owns_app_;
     std::vector<Options*> subcommands_;
+    std::vector<Dependent> dependents_;
     std::vector<std::string> others_;
 };
 

@@ -4,20 +4,23 @@
 #include <cstdio>
 #include <ctime>
 #include <exception>
+#include <new>
+#include <stdexcept>
 #include <system_error>
 
-#include <fmt/core.h>
 #include <omp.h>
+#include <signal.h>  // SIGHUP and SIGPIPE are POSIX
 
 #include "base/input_error.h"
+#include "common/console.h"
 
 namespace stopline {
 
 namespace {
 
 // These variables are global, because a signal handler gets no other access to data of the program.
-volatile std::sig_atomic_t interrupt_received = 0;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
-volatile std::sig_atomic_t interrupt_time_s = 0;    // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+volatile std::sig_atomic_t interrupt_signal = 0;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+volatile std::sig_atomic_t interrupt_time_s = 0;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 
 std::sig_atomic_t monotonic_time_s() {
     timespec now{};
@@ -25,12 +28,12 @@ std::sig_atomic_t monotonic_time_s() {
     return static_cast<std::sig_atomic_t>(now.tv_sec);
 }
 
-// The first Ctrl-C asks the program to stop, a second Ctrl-C kills it. Wrappers such as timeout(1) send each interrupt
-// twice, so the handler ignores a repetition within about two seconds.
+// The first signal asks the program to stop, a second one kills it. Wrappers such as timeout(1) send each signal twice,
+// so the handler ignores a repetition within about two seconds.
 extern "C" void on_interrupt(int signal) {
     const std::sig_atomic_t now = monotonic_time_s();
-    if (interrupt_received == 0) {
-        interrupt_received = 1;
+    if (interrupt_signal == 0) {
+        interrupt_signal = signal;
         interrupt_time_s = now;
     } else if (now - interrupt_time_s > 1) {
         std::signal(signal, SIG_DFL);
@@ -38,9 +41,36 @@ extern "C" void on_interrupt(int signal) {
     }
 }
 
+// The reader of a pipe has closed it. The write fails in addition, so a repetition of the signal needs no action.
+extern "C" void on_closed_pipe(int signal) {
+    if (interrupt_signal == 0) interrupt_signal = signal;
+}
+
+void install_signal_handlers() {
+    std::signal(SIGINT, on_interrupt);
+    std::signal(SIGTERM, on_interrupt);
+    // Signals that the caller ignores stay ignored: nohup(1) ignores SIGHUP.
+    if (std::signal(SIGHUP, on_interrupt) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+    if (std::signal(SIGPIPE, on_closed_pipe) == SIG_IGN) std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the file size limit then fails instead of killing the program
+}
+
+std::string& input_name() {
+    static std::string name;
+    return name;
+}
+
 ExitCode report_interrupt(const std::string& name) {
-    fmt::print(stderr, "{}: interrupted; all files on disk are complete\n", name);
+    if (interrupt_signal != SIGPIPE) print_message("{}: interrupted; all files on disk are complete\n", name);
     return ExitCode::interrupted;
+}
+
+ExitCode report_missing_memory(const std::string& name) {
+    print_message(
+        "{}: {}{}not enough memory. Make the input smaller, shorten the run, use fewer threads (--threads), or raise "
+        "the memory limit (ulimit -v)\n",
+        name, input_name(), input_name().empty() ? "" : ": ");
+    return ExitCode::bad_input;
 }
 
 // Runs `body` and prints exceptions as messages.
@@ -50,17 +80,19 @@ ExitCode run_guarded(const std::string& name, const std::function<ExitCode()>& b
     } catch (const InputError& error) {
         // Child processes such as gnuplot receive the same Ctrl-C and fail. This is no error of the input.
         if (interrupted()) return report_interrupt(name);
-        fmt::print(stderr, "{}: {}\n", name, error.what());
+        print_message("{}: {}\n", name, error.what());
         return ExitCode::bad_input;
     } catch (const Interrupted&) {
         return report_interrupt(name);
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "{}: out of memory; try fewer threads (--threads) or a shorter run\n", name);
+        return report_missing_memory(name);
+    } catch (const std::length_error&) {  // a container would need more bytes than any computer can address
+        return report_missing_memory(name);
     } catch (const std::system_error& error) {
         if (std::ferror(stdout) != 0) return ExitCode::bad_input;  // run_program() reports the failed output
-        fmt::print(stderr, "{}: internal error (a bug in this program): {}\n", name, error.what());
+        print_message("{}: internal error (a bug in this program): {}\n", name, error.what());
     } catch (const std::exception& error) {
-        fmt::print(stderr, "{}: internal error (a bug in this program): {}\n", name, error.what());
+        print_message("{}: internal error (a bug in this program): {}\n", name, error.what());
     }
     return ExitCode::check_failed;
 }
@@ -68,17 +100,30 @@ ExitCode run_guarded(const std::string& name, const std::function<ExitCode()>& b
 }  // namespace
 
 int run_program(const std::string& name, const std::function<ExitCode()>& body) {
-    std::signal(SIGINT, on_interrupt);
-    std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the file size limit then fails instead of killing the program
+    open_closed_streams();
+    install_signal_handlers();
     const ExitCode code = run_guarded(name, body);
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-        fmt::print(stderr, "{}: cannot write to standard output\n", name);
+    const bool output_failed = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+    if (interrupt_signal == SIGPIPE && (output_failed || code == ExitCode::interrupted)) {
+        std::signal(SIGPIPE, SIG_DFL);
+        std::raise(SIGPIPE);  // ends the program as if it had no handler, now that its temporary files are removed
+    }
+    if (code == ExitCode::interrupted && interrupt_signal != 0) return 128 + interrupt_signal;
+    if (output_failed) {
+        print_message("{}: cannot write to standard output\n", name);
         if (code == ExitCode::done) return static_cast<int>(ExitCode::bad_input);
     }
     return static_cast<int>(code);
 }
 
-bool interrupted() { return interrupt_received != 0; }
+bool interrupted() { return interrupt_signal != 0; }
+
+void end_at_once_on_termination() {
+    std::signal(SIGTERM, SIG_DFL);
+    std::signal(SIGHUP, SIG_DFL);
+}
+
+void set_input_name(const std::string& name) { input_name() = name; }
 
 int thread_count(int requested) { return requested > 0 ? requested : omp_get_max_threads(); }
 

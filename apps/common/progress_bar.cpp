@@ -9,6 +9,7 @@
 
 #include <fmt/core.h>
 
+#include "common/console.h"
 #include "common/program.h"
 
 namespace stopline {
@@ -45,10 +46,10 @@ bool ProgressBar::update(double share, const std::string& label, std::optional<d
         const std::string text = remaining_s ? progress_text_with_remaining(label, share, *remaining_s)
                                              : progress_text(label, share, elapsed_s);
         if (is_terminal_) {
-            fmt::print(stderr, "\r{}\033[K", text);
+            print_message("\r{}\033[K", text);
             std::fflush(stderr);
         } else {
-            fmt::print(stderr, "{}\n", text);
+            print_message("{}\n", text);
         }
         on_screen_ = is_terminal_;
         last_shown_ = now;

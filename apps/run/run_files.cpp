@@ -1,6 +1,9 @@
 #include "run/run_files.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -70,13 +73,6 @@ std::filesystem::path population_file(const std::filesystem::path& file, const S
     return file.parent_path() / name;
 }
 
-// Creates the folder of `file`. Called before the runs, so that a wrong path is reported before any run starts.
-void prepare_folder_of(const std::string& file) {
-    const std::filesystem::path path(file);
-    if (path.filename().empty()) throw InputError(fmt::format("'{}' is a folder; add the name of a file to it", file));
-    prepare_folder(path.has_parent_path() ? path.parent_path() : ".");
-}
-
 class RecordingWriter : public RunWriter {
 public:
     RecordingWriter(const std::filesystem::path& file, const RecordingWindow& window, const RunOrigin& origin,
@@ -100,9 +96,10 @@ void add_run_files_options(Options& app, RunFilesOptions& options) {
     const auto file = [&](const char* name, std::string& value, const char* help) {
         app.add(name, value, help).type_name("FILE");
     };
-    const auto time = [&](const char* name, std::string& value, const char* help) {
-        app.add(name, value, help).type_name("TIME");
-    };
+    const auto time = [&](const char* name, std::string& value, const std::vector<std::string>& files,
+                          const char* help) { app.add(name, value, help).type_name("TIME").only_with(files); };
+    const std::vector<std::string> framed{"--record", "--fcd"};
+    const std::vector<std::string> timed{"--record", "--fcd", "--trajectories"};
     file(
         "--record", options.record,
         "Record all vehicles and signals for stopline-replay. Several populations write one file each, here and below: "
@@ -111,28 +108,32 @@ void add_run_files_options(Options& app, RunFilesOptions& options) {
         "--fcd", options.fcd,
         "Write the positions of all vehicles as SUMO floating car data (XML). A file that ends with .gz or .zst is compressed, here "
         "and below");
-    time("--record-interval", options.interval, "With --record or --fcd: time between frames (default: 1 s)");
-    time("--record-from", options.from, "With --record or --fcd: time of the first frame (default: 0 s)");
-    time("--record-until", options.until, "With --record or --fcd: time of the last frame (default: end of the run)");
+    time("--record-interval", options.interval, framed, "With --record or --fcd: time between frames (default: 1 s)");
+    time("--record-from", options.from, timed, "With --record, --fcd or --trajectories: time of the first frame (default: 0 s)");
+    time("--record-until", options.until, timed, "With --record, --fcd or --trajectories: time of the last frame (default: end of the run)");
     file("--tripinfo", options.tripinfo, "Write finished trips as SUMO tripinfo (XML)");
     file("--e1", options.loops, "Write the counts of the detectors as SUMO induction loops (XML)");
-    time("--e1-interval", options.loop_interval, "With --e1: counting interval (default: 60 s)");
+    time("--e1-interval", options.loop_interval, {"--e1"}, "With --e1: counting interval (default: 60 s)");
 }
 
 RunFiles::RunFiles(const RunFilesOptions& options, const Scenario& scenario, const std::string& command)
     : scenario_(scenario), window_(window_of(options, scenario)), open_files_(scenario.populations.size()) {
-    const auto add = [&](const std::string& file, const auto& make_writer) {
-        if (!file.empty()) kinds_.push_back({file, make_writer});
+    const auto add = [&](const char* option, const std::string& file, const auto& make_writer) {
+        if (file.empty()) return;
+        if (!std::filesystem::path(file).has_filename()) {
+            throw InputError(fmt::format("{}: '{}' is a folder; add the name of a file to it", option, file));
+        }
+        kinds_.push_back({option, file, make_writer});
     };
-    if (!options.record.empty()) add_recording(options, scenario, command);
-    add(options.fcd, [this](const std::filesystem::path& file, std::size_t, const Model& model) {
+    if (!options.record.empty()) add("--record", options.record, recording_maker(options, scenario, command));
+    add("--fcd", options.fcd, [this](const std::filesystem::path& file, std::size_t, const Model& model) {
         return make_fcd_writer(file, window_, model);
     });
-    add(options.tripinfo, [](const std::filesystem::path& file, std::size_t, const Model& model) {
+    add("--tripinfo", options.tripinfo, [](const std::filesystem::path& file, std::size_t, const Model& model) {
         return make_tripinfo_writer(file, model);
     });
     const double loop_s = parse_interval_s("--e1-interval", options.loop_interval, scenario, !options.loops.empty());
-    add(options.loops, [loop_s](const std::filesystem::path& file, std::size_t, const Model& model) {
+    add("--e1", options.loops, [loop_s](const std::filesystem::path& file, std::size_t, const Model& model) {
         return make_loop_writer(file, loop_s, model);
     });
     needs_detectors_ = !options.loops.empty();
@@ -140,14 +141,43 @@ RunFiles::RunFiles(const RunFilesOptions& options, const Scenario& scenario, con
     trajectories.interval_s = options.trajectory_interval_s;
     const std::string header =
         result_file("network/trajectories.csv", "", kTrajectoryHeader, options.column_names).text;
-    add(options.trajectories,
+    add("--trajectories-file", options.trajectories,
         [this, trajectories, header](const std::filesystem::path& file, std::size_t k, const Model& model) {
             return make_trajectory_writer(file, trajectories, scenario_.populations[k].name, model, header);
         });
-    for (const FileKind& kind : kinds_) prepare_folder_of(kind.path);
 }
 
-void RunFiles::add_recording(const RunFilesOptions& options, const Scenario& scenario, const std::string& command) {
+void RunFiles::add_outputs(CommandFiles& files) const {
+    for (const FileKind& kind : kinds_) {
+        for (std::size_t k = 0; k < scenario_.populations.size(); ++k) {
+            files.add_output(population_file(kind.path, scenario_, k), kind.option);
+        }
+    }
+}
+
+void RunFiles::refuse_names_of_figures(const std::filesystem::path& folder) const {
+    constexpr std::array kEndings{".svg", ".png", ".gp", ".dat"};
+    for (const FileKind& kind : kinds_) {
+        const std::filesystem::path file(kind.path);
+        const std::filesystem::path parent = file.has_parent_path() ? file.parent_path() : ".";
+        std::error_code ignored;
+        const bool is_beside = std::filesystem::equivalent(parent, folder, ignored);
+        if (!is_beside || std::find(kEndings.begin(), kEndings.end(), file.extension()) == kEndings.end()) continue;
+        throw InputError(fmt::format("{}: figures in the folder of --output can have the name '{}'; give another ending",
+                                     kind.option, kind.path));
+    }
+}
+
+void RunFiles::prepare() const {
+    for (const FileKind& kind : kinds_) {
+        for (std::size_t k = 0; k < scenario_.populations.size(); ++k) {
+            prepare_output_file(population_file(kind.path, scenario_, k));
+        }
+    }
+}
+
+RunFiles::WriterMaker RunFiles::recording_maker(const RunFilesOptions& options, const Scenario& scenario,
+                                                const std::string& command) {
     std::string record_command = command + " --record FILE --record-interval " + shell_word(options.interval);
     if (window_.from_s > 0.0) record_command += " --record-from " + shell_word(options.from);
     if (!options.until.empty()) record_command += " --record-until " + shell_word(options.until);
@@ -159,13 +189,12 @@ void RunFiles::add_recording(const RunFilesOptions& options, const Scenario& sce
                      scenario.seed,
                      "",
                      network_kind(network).lane_width_m(network)};
-    const auto make_writer = [this, origin](const std::filesystem::path& file, std::size_t k, const Model& model) {
+    has_recording_ = true;
+    return [this, origin](const std::filesystem::path& file, std::size_t k, const Model& model) {
         RunOrigin population_origin = origin;
         population_origin.population = scenario_.populations[k].name;
         return std::make_unique<RecordingWriter>(file, window_, population_origin, model);
     };
-    kinds_.push_back({options.record, make_writer});
-    has_recording_ = true;
 }
 
 Observation RunFiles::observation() {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/io/command_files.h"
 #include "common/options.h"
 #include "record/recording/frame_clock.h"
 #include "record/run_writer.h"
@@ -42,6 +43,13 @@ public:
     // InputError that names the option.
     RunFiles(const RunFilesOptions& options, const Scenario& scenario, const std::string& command);
 
+    // Adds the files of all populations to the outputs of the command.
+    void add_outputs(CommandFiles& files) const;
+    // Throws InputError if a file has the name of a figure in this folder: its ending is .svg, .png, .gp or .dat.
+    void refuse_names_of_figures(const std::filesystem::path& folder) const;
+    // Creates the folders of the files and checks that the files can be written. Throws InputError if not.
+    void prepare() const;
+
     // Returns the observer to pass to the runs. The observer must not outlive this object.
     Observation observation();
     // Completes all files after the runs. Returns a text that lists the files for the user; empty if there are no
@@ -53,12 +61,15 @@ private:
         std::filesystem::path path;
         std::unique_ptr<RunWriter> writer;
     };
+    // Creates the writer for the file of one population.
+    using WriterMaker =
+        std::function<std::unique_ptr<RunWriter>(const std::filesystem::path&, std::size_t, const Model&)>;
     struct FileKind {
-        std::string path;  // path from the command line
-        // Creates the writer for the file of one population.
-        std::function<std::unique_ptr<RunWriter>(const std::filesystem::path&, std::size_t, const Model&)> make_writer;
+        std::string option;  // option that names the file
+        std::string path;    // path from the command line
+        WriterMaker make_writer;
     };
-    void add_recording(const RunFilesOptions& options, const Scenario& scenario, const std::string& command);
+    WriterMaker recording_maker(const RunFilesOptions& options, const Scenario& scenario, const std::string& command);
     void look(std::size_t population, const Simulation& simulation);
 
     const Scenario& scenario_;

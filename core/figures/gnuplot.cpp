@@ -123,20 +123,17 @@ std::vector<fs::path> draw(const Figure& figure, const fs::path& folder) {
     const std::string suffix = ".part";
     const ProcessResult ended =
         run_process({"gnuplot", "-e", "suffix = '" + suffix + "'", figure.name + ".gp"}, folder);
-    const bool failed = ended.failed();
+    const std::array<fs::path, 2> parts{files[0].string() + suffix, files[1].string() + suffix};
+    const bool succeeded = !ended.failed() && std::all_of(parts.begin(), parts.end(), complete);
     std::error_code error;
-    for (std::size_t k = 0; k < 2; ++k) {
-        const fs::path part = files[k].string() + suffix;
-        if (!failed && complete(part)) {
-            fs::rename(part, files[k], error);
-            if (error) fail(figure, folder, error.message());
-            continue;
-        }
-        fs::remove(part, error);
-        if (ended.start_error != 0)
-            fail(figure, folder, "gnuplot: " + std::generic_category().message(ended.start_error));
-        fail(figure, folder, ended.output.empty() ? "gnuplot wrote an incomplete picture" : ended.output);
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        if (succeeded && !error) fs::rename(parts[k], files[k], error);
+        std::error_code ignored;
+        fs::remove(parts[k], ignored);  // after a failure, no part of the two pictures is left
     }
+    if (ended.start_error != 0) fail(figure, folder, "gnuplot: " + std::generic_category().message(ended.start_error));
+    if (error) fail(figure, folder, error.message());
+    if (!succeeded) fail(figure, folder, ended.output.empty() ? "gnuplot wrote an incomplete picture" : ended.output);
     return files;
 }
 

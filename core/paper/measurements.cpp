@@ -17,6 +17,13 @@ namespace stopline {
 namespace {
 
 constexpr const char* kKeyRow = "key";
+constexpr const char* kChecksumRow = "checksum";  // last row of the file
+
+std::string checksum_of(const Measurements& measurements) {
+    std::string text;
+    for (const auto& [name, value] : measurements.values()) text += name + (std::isnan(value) ? " nan\n" : fmt::format(" {:a}\n", value));
+    return fmt::format("{:016x}", hash_of(text));
+}
 
 }  // namespace
 
@@ -40,9 +47,14 @@ std::optional<Measurements> load_measurements(const std::filesystem::path& file,
         const std::size_t value = table.column("value");
         Measurements measurements;
         bool same_key = false;
+        std::string checksum;
         for (const std::vector<std::string>& row : table.rows) {
             if (row[name] == kKeyRow) {
                 same_key = row[value] == key;
+                continue;
+            }
+            if (row[name] == kChecksumRow) {
+                checksum = row[value];
                 continue;
             }
             const std::optional<double> number =
@@ -50,7 +62,7 @@ std::optional<Measurements> load_measurements(const std::filesystem::path& file,
             if (!number) return std::nullopt;
             measurements.set(row[name], *number);
         }
-        if (!same_key) return std::nullopt;
+        if (!same_key || checksum != checksum_of(measurements)) return std::nullopt;
         return measurements;
     } catch (const InputError&) {
         return std::nullopt;
@@ -64,6 +76,7 @@ void store_measurements(const std::filesystem::path& file, const std::string& ke
         // fmt writes the shortest text that reads back as the same double.
         csv.row({name, std::isnan(value) ? "nan" : fmt::format("{}", value)});
     }
+    csv.row({kChecksumRow, checksum_of(measurements)});
     write_file(file, csv.text());
 }
 

@@ -1,5 +1,5 @@
 // Measurements of an experiment as named numbers, stored in one CSV file for each experiment. A later run reuses the
-// file only if program and scenario are the same.
+// file only if program and scenario are the same and the checksum in the file fits.
 #pragma once
 
 #include <filesystem>

@@ -1,13 +1,12 @@
 #include "sumo_export/staged_folder.h"
 
-#include <unistd.h>
-
 #include <system_error>
 
 #include <fmt/format.h>
 
 #include "base/input_error.h"
 #include "base/io/output.h"
+#include "base/io/replaced_file.h"
 
 namespace stopline {
 
@@ -39,7 +38,7 @@ NewFolders::~NewFolders() {
 StagedFolder::StagedFolder(const fs::path& folder)
     : folder_(without_last_slash(folder)),
       new_folders_(folder_),
-      stage_(folder_ / fmt::format(".{}.part", ::getpid())) {
+      stage_(temporary_path(folder_ / "files")) {
     prepare_folder(stage_);
 }
 

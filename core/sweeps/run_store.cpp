@@ -2,19 +2,24 @@
 
 #include <sqlite3.h>
 
-#include <map>
+#include <new>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/input_error.h"
+#include "runs/program_identity.h"
 #include "scenario/schema/quantity.h"
 
 namespace stopline {
 
 namespace {
 
-constexpr const char* kFormat = "stopline runs 1";
+// Stores of another format are refused. Version 1 had no checksums.
+constexpr std::string_view kFormat = "stopline runs 2";
+constexpr const char* kChecksumRow = "checksum";
+constexpr std::string_view kFormatOfAnyVersion = "stopline runs ";
 
 // A prepared SQLite statement. The destructor finalises it.
 class Statement {
@@ -46,6 +51,8 @@ public:
         return bytes == nullptr ? std::string() : std::string(static_cast<const char*>(bytes), size);
     }
     std::size_t number(int column) const { return static_cast<std::size_t>(sqlite3_column_int64(statement_, column)); }
+    bool is_number(int column) const { return sqlite3_column_type(statement_, column) == SQLITE_INTEGER; }
+    bool is_text(int column) const { return sqlite3_column_type(statement_, column) == SQLITE_TEXT; }
 
 private:
     sqlite3_stmt* statement_ = nullptr;
@@ -56,7 +63,7 @@ std::string reason(int code, sqlite3* database) {
     const int kind = code & 0xff;
     if (kind == SQLITE_BUSY || kind == SQLITE_LOCKED) return "another program has this store open; wait until it ends";
     if (kind == SQLITE_NOTADB || kind == SQLITE_CORRUPT)
-        return "the file is not a store of stopline-sweep, or it is damaged";
+        return "the file is not a store of stopline-sweep, or it is damaged. Remove it and repeat the command";
     if (kind == SQLITE_FULL) return "cannot write: the disk is full";
     if (kind == SQLITE_READONLY || kind == SQLITE_CANTOPEN || kind == SQLITE_PERM || kind == SQLITE_IOERR) {
         return fmt::format(
@@ -66,6 +73,24 @@ std::string reason(int code, sqlite3* database) {
     }
     const std::string message = database == nullptr ? sqlite3_errstr(code) : sqlite3_errmsg(database);
     return fmt::format("the store cannot be used: {} ({})", message, code);
+}
+
+std::string checksum_of(std::string_view text) { return fmt::format("{:016x}", hash_of(text)); }
+
+// The checksum of a run covers its number, so that exchanged runs are noticed.
+std::string checksum_of_run(std::size_t point, const std::string& result) {
+    return checksum_of(fmt::format("{}\n{}", point, result));
+}
+
+using MetaRows = std::map<std::string, std::string>;
+
+// Returns the checksum of all rows of the table `meta` except the row with the checksum itself.
+std::string checksum_of_meta(const MetaRows& rows) {
+    std::string text;
+    for (const auto& [key, value] : rows) {
+        if (key != kChecksumRow) text += key + "=" + value + "\n";
+    }
+    return checksum_of(text);
 }
 
 // Returns a text about the first difference between two identities; "" if they are equal. The provenance is not
@@ -115,6 +140,7 @@ RunStore RunStore::open_or_make(const std::filesystem::path& file, const StoreId
             "{}: {}. Such runs are never mixed: choose another --output, or remove this store to start again",
             file.string(), difference));
     }
+    store.check_integrity();
     return store;
 }
 
@@ -123,11 +149,29 @@ RunStore RunStore::open(const std::filesystem::path& file) {
     RunStore store(file, false);
     if (!store.has_tables()) throw InputError(fmt::format("{}: the store holds no runs", file.string()));
     store.read_identity();
+    store.check_integrity();
     return store;
 }
 
+bool RunStore::is_outdated(const std::filesystem::path& file, const StoreIdentity& identity) {
+    RunStore store(file, false);
+    if (!store.has_tables()) return false;
+    const std::string format = store.meta_rows()["format"];
+    if (format != kFormat && format.starts_with(kFormatOfAnyVersion)) return true;
+    store.read_identity();
+    return store.identity_.sweep != identity.sweep || store.identity_.program != identity.program;
+}
+
 void RunStore::fail(int code) const {
+    if ((code & 0xff) == SQLITE_NOMEM) throw std::bad_alloc();
     throw InputError(fmt::format("{}: {}", file_.string(), reason(code, database_.get())));
+}
+
+void RunStore::fail_damaged(const std::string& damage) const {
+    throw InputError(
+        fmt::format("{}: the store is damaged: {}. Its runs cannot be trusted: remove the file and repeat the command, "
+                    "which then executes all runs again",
+                    file_.string(), damage));
 }
 
 void RunStore::execute(const char* sql) const {
@@ -144,18 +188,19 @@ bool RunStore::has_tables() const {
 
 void RunStore::make_tables(const StoreIdentity& identity) {
     identity_ = identity;
-    const std::map<std::string, std::string> rows{{"format", kFormat},
-                                                  {"name", identity.name},
-                                                  {"sweep", identity.sweep},
-                                                  {"program", identity.program},
-                                                  {"points", fmt::format("{}", identity.points)},
-                                                  {"shard", identity.shard},
-                                                  {"provenance", identity.provenance}};
+    MetaRows rows{{"format", std::string(kFormat)},
+                  {"name", identity.name},
+                  {"sweep", identity.sweep},
+                  {"program", identity.program},
+                  {"points", fmt::format("{}", identity.points)},
+                  {"shard", identity.shard},
+                  {"provenance", identity.provenance}};
+    rows[kChecksumRow] = checksum_of_meta(rows);
     // One transaction for both tables. If the program is killed, the store has either both tables or none. If it has
     // none, the next program that opens the store creates them.
     execute("BEGIN");
     execute("CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID");
-    execute("CREATE TABLE runs(point INTEGER PRIMARY KEY, result TEXT NOT NULL)");
+    execute("CREATE TABLE runs(point INTEGER PRIMARY KEY, result TEXT NOT NULL, checksum TEXT NOT NULL)");
     for (const auto& [key, value] : rows) {
         Statement statement(database_.get(), "INSERT INTO meta VALUES(?, ?)");
         statement.bind(1, key);
@@ -166,37 +211,55 @@ void RunStore::make_tables(const StoreIdentity& identity) {
     execute("COMMIT");
 }
 
-void RunStore::read_identity() {
-    std::map<std::string, std::string> rows;
+std::map<std::string, std::string> RunStore::meta_rows() const {
+    MetaRows rows;
     Statement statement(database_.get(), "SELECT key, value FROM meta");
     int code = statement.step();
     for (; code == SQLITE_ROW; code = statement.step()) rows[statement.text(0)] = statement.text(1);
+    if (code != SQLITE_DONE && code != SQLITE_ERROR) fail(code);
+    if (!rows["format"].starts_with(kFormatOfAnyVersion)) {
+        throw InputError(fmt::format("{}: the file is not a store of stopline-sweep, or it is damaged", file_.string()));
+    }
+    return rows;
+}
+
+void RunStore::read_identity() {
+    MetaRows rows = meta_rows();
+    if (rows["format"] != kFormat) {
+        throw InputError(
+            fmt::format("{}: another version of the program wrote this store (its format is '{}', and this program "
+                        "reads '{}'). Such runs are never mixed: choose another --output, or remove this store to "
+                        "start again",
+                        file_.string(), rows["format"], kFormat));
+    }
     const ParsedWhole points = parse_whole(rows["points"]);
-    if (code != SQLITE_DONE || rows["format"] != kFormat || !points.problem.empty()) {
-        throw InputError(fmt::format("{}: the file is not a store of stopline-sweep", file_.string()));
+    if (rows[kChecksumRow] != checksum_of_meta(rows) || !points.problem.empty()) {
+        fail_damaged("the description of the sweep does not match its checksum");
     }
     identity_ = {rows["name"],  rows["sweep"],     rows["program"], static_cast<std::size_t>(points.value),
                  rows["shard"], rows["provenance"]};
 }
 
+void RunStore::check_integrity() const {
+    Statement statement(database_.get(), "PRAGMA integrity_check(1)");
+    const int code = statement.step();
+    if (code != SQLITE_ROW) fail(code);
+    if (statement.text(0) != "ok") fail_damaged(statement.text(0));
+    for_each_run([](std::size_t, const std::string&) {});
+}
+
 std::vector<bool> RunStore::done() const {
     std::vector<bool> done(identity_.points, false);
-    Statement statement(database_.get(), "SELECT point FROM runs");
-    int code = statement.step();
-    for (; code == SQLITE_ROW; code = statement.step()) {
-        const std::size_t point = statement.number(0);
-        if (point >= done.size())
-            throw InputError(fmt::format("{}: the store holds a run beyond the end of the sweep", file_.string()));
-        done[point] = true;
-    }
-    if (code != SQLITE_DONE) fail(code);
+    for_each_run([&](std::size_t point, const std::string&) { done[point] = true; });
     return done;
 }
 
 void RunStore::put(std::size_t point, const std::string& result) {
-    Statement statement(database_.get(), "INSERT INTO runs VALUES(?, ?)");
+    Statement statement(database_.get(), "INSERT INTO runs VALUES(?, ?, ?)");
+    const std::string checksum = checksum_of_run(point, result);
     statement.bind(1, point);
     statement.bind(2, result);
+    statement.bind(3, checksum);
     const int code = statement.step();
     if (code != SQLITE_DONE) fail(code);
 }
@@ -208,9 +271,22 @@ void RunStore::put_in_one_transaction(const std::function<void()>& puts) {
 }
 
 void RunStore::for_each_run(const std::function<void(std::size_t, const std::string&)>& visit) const {
-    Statement statement(database_.get(), "SELECT point, result FROM runs ORDER BY point");
+    Statement statement(database_.get(), "SELECT point, result, checksum FROM runs ORDER BY point");
+    std::size_t next = 0;  // smallest number that the next run can have
     int code = statement.step();
-    for (; code == SQLITE_ROW; code = statement.step()) visit(statement.number(0), statement.text(1));
+    for (; code == SQLITE_ROW; code = statement.step()) {
+        const std::size_t point = statement.number(0);
+        if (!statement.is_number(0) || point < next || point >= identity_.points) {
+            fail_damaged("it holds a run that the sweep does not have");
+        }
+        const std::string result = statement.text(1);
+        if (!statement.is_text(1) || statement.text(2) != checksum_of_run(point, result)) {
+            fail_damaged(fmt::format("run {} does not match its checksum", point));
+        }
+        visit(point, result);
+        next = point + 1;
+    }
+    if (code == SQLITE_ERROR) fail_damaged(sqlite3_errmsg(database_.get()));
     if (code != SQLITE_DONE) fail(code);
 }
 

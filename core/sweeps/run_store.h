@@ -5,11 +5,15 @@
 // log together, and the network file systems of clusters do not offer shared memory. With this log, storing a run does
 // not wait for the disk. A power cut can lose the last runs, but does not damage the file. The sweep then repeats these
 // runs.
+//
+// Each run has a checksum, and opening a store checks all of them and the structure of the file. A damaged store is
+// refused, so a table never has wrong numbers.
 #pragma once
 
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -33,11 +37,15 @@ struct StoreIdentity {
 class RunStore {
 public:
     // Opens the store in `file`, or creates it. Throws InputError if the stored identity differs from `identity` in
-    // anything but the provenance. Also throws InputError if the file is not a store, or if another program has it
-    // open.
+    // anything but the provenance. Also throws InputError if the file is not a store of this version, if it is damaged,
+    // or if another program has it open.
     static RunStore open_or_make(const std::filesystem::path& file, const StoreIdentity& identity);
-    // Opens an existing store. Throws InputError if the file is missing, is not a store, or is open in another program.
+    // Opens an existing store. Throws InputError if the file is missing, is not a store of this version, is damaged, or
+    // is open in another program.
     static RunStore open(const std::filesystem::path& file);
+    // Returns true if the store belongs to another sweep, to another program or to another version of the store. Throws
+    // InputError if the file is not a store, is damaged, or is open in another program.
+    static bool is_outdated(const std::filesystem::path& file, const StoreIdentity& identity);
 
     const StoreIdentity& identity() const { return identity_; }
     const std::filesystem::path& file() const { return file_; }
@@ -60,9 +68,13 @@ private:
     RunStore(std::filesystem::path file, bool make);
     void execute(const char* sql) const;
     [[noreturn]] void fail(int code) const;
+    [[noreturn]] void fail_damaged(const std::string& damage) const;
     bool has_tables() const;
     void make_tables(const StoreIdentity& identity);
+    std::map<std::string, std::string> meta_rows() const;
     void read_identity();
+    // Throws InputError unless the whole file is in order and every run matches its checksum.
+    void check_integrity() const;
 
     std::filesystem::path file_;
     std::unique_ptr<sqlite3, Close> database_;

@@ -3,10 +3,10 @@
 #include <system_error>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "base/input_error.h"
 #include "base/io/output.h"
+#include "base/io/replaced_file.h"
 
 namespace stopline {
 
@@ -109,7 +109,7 @@ MergedSweep merge_stores(const std::vector<fs::path>& files, const fs::path& fol
             fmt::format("{}: the store exists already: choose another --output, or remove it", results.store.string()));
     }
     // The merged store gets its final name only when it is complete.
-    const fs::path temporary = folder / fmt::format(".{}.{}.part", results.store.filename().string(), ::getpid());
+    const fs::path temporary = temporary_path(results.store);
     std::error_code ignored;
     MergedSweep merged{name, {}};
     try {

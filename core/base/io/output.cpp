@@ -30,6 +30,22 @@ void prepare_folder(const fs::path& folder) {
     if (error) fail(folder, "cannot create the folder", error.value());
     if (!fs::is_directory(folder)) fail(folder, "cannot create the folder", ENOTDIR);
     if (::access(folder.c_str(), W_OK | X_OK) != 0) fail(folder, "cannot write into the folder", errno);
+    remove_stale_parts(folder);
+}
+
+void prepare_output_file(const fs::path& file) {
+    if (!file.has_filename()) {
+        throw InputError(fmt::format("'{}' is a folder; add the name of a file to it", file.string()));
+    }
+    prepare_folder(file.has_parent_path() ? file.parent_path() : ".");
+    std::error_code ignored;
+    const fs::file_status status = fs::status(file, ignored);
+    if (fs::is_directory(status)) fail(file, "cannot write", EISDIR);
+    if (!fs::exists(status) || fs::is_regular_file(status)) {
+        const ReplacedFile trial(file);  // its destructor removes the temporary file
+    } else if (::access(file.c_str(), W_OK) != 0) {  // opening a pipe would wait for its reader
+        fail(file, "cannot write", errno);
+    }
 }
 
 void write_file(const fs::path& file, std::string_view text) {

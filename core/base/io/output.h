@@ -7,10 +7,14 @@
 
 namespace stopline {
 
-// Creates the folder and its parents, and checks that files can be created in the folder. On failure it throws
-// InputError with path and reason. Call the function before a long run, so that a wrong path is reported before the run
-// starts.
+// Creates the folder and its parents, and checks that files can be created in the folder. Removes temporary files that
+// killed programs left in it. On failure it throws InputError with path and reason. Call the function before a long run,
+// so that a wrong path is reported before the run starts.
 void prepare_folder(const std::filesystem::path& folder);
+
+// Checks that the file can be written, and creates its folder. Leaves an existing file unchanged. On failure it throws
+// InputError with path and reason. Call the function before long work, as prepare_folder().
+void prepare_output_file(const std::filesystem::path& file);
 
 // Writes the file atomically (see base/io/replaced_file.h); a device or a pipe is written directly. On failure the old
 // content of the file remains, and the function throws InputError with path and reason.

@@ -4,10 +4,13 @@
 #include <signal.h>  // declares the POSIX function kill()
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <charconv>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -21,32 +24,59 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kTemporarySuffix = ".part";
+// SQLite adds these to the name of a database for its own temporary files.
+constexpr std::array<std::string_view, 3> kDatabaseSuffixes{"-wal", "-journal", "-shm"};
 
 [[noreturn]] void fail(const fs::path& path, int error) {
     throw InputError(fmt::format("{}: cannot write: {}", path.string(), std::generic_category().message(error)));
 }
 
-// Returns the path of the temporary file, in the folder of the target. The name contains the process id, because
-// several programs may write the same target at the same time.
-fs::path temporary_path(const fs::path& target) {
-    return target.parent_path() / fmt::format(".{}.{}{}", target.filename().string(), ::getpid(), kTemporarySuffix);
+// Returns a text that stands for this machine in the names of temporary files.
+std::string machine_text() {
+    std::array<char, 256> name{};
+    static_cast<void>(::gethostname(name.data(), name.size() - 1));
+    std::uint32_t hash = 0x811c9dc5U;  // FNV-1a, 32 bits
+    for (const char* c = name.data(); *c != '\0'; ++c) hash = (hash ^ static_cast<unsigned char>(*c)) * 0x01000193U;
+    return fmt::format("{:08x}", hash);
 }
 
-// Returns the id of the process that wrote the temporary file `name`, or nothing if `name` is no temporary file.
-std::optional<pid_t> writer_of(const std::string& name) {
+// Removes the ending of `name` and the '.' before it, and returns this ending. Returns "" if `name` has no '.'.
+std::string take_ending(std::string& name) {
+    const std::size_t dot = name.rfind('.');
+    if (dot == std::string::npos) return {};
+    std::string ending = name.substr(dot + 1);
+    name.resize(dot);
+    return ending;
+}
+
+// Returns the id of the process of this machine that wrote the temporary file `name`, or nothing if `name` is no
+// temporary file of this machine.
+std::optional<pid_t> writer_of(std::string name) {
+    for (const std::string_view suffix : kDatabaseSuffixes) {
+        if (name.ends_with(std::string(kTemporarySuffix) + std::string(suffix))) {
+            name.resize(name.size() - suffix.size());
+        }
+    }
     if (!name.starts_with('.') || !name.ends_with(kTemporarySuffix)) return std::nullopt;
-    const std::string rest = name.substr(0, name.size() - kTemporarySuffix.size());
-    const char* const begin = rest.data() + rest.rfind('.') + 1;
-    const char* const end = rest.data() + rest.size();
+    name.resize(name.size() - kTemporarySuffix.size());
+    const std::string process = take_ending(name);
+    const std::string machine = take_ending(name);
+    if (name.size() < 2 || machine != machine_text()) return std::nullopt;
+    const char* const end = process.data() + process.size();
     pid_t writer = 0;
-    const auto [stop, error] = std::from_chars(begin, end, writer);
-    if (error != std::errc() || stop != end || begin == rest.data() + 1 || writer <= 0) return std::nullopt;
+    const auto [stop, error] = std::from_chars(process.data(), end, writer);
+    if (error != std::errc() || stop != end || writer <= 0) return std::nullopt;
     return writer;
 }
 
 bool is_running(pid_t process) { return ::kill(process, 0) == 0 || errno != ESRCH; }
 
 }  // namespace
+
+fs::path temporary_path(const fs::path& target) {
+    return target.parent_path() /
+           fmt::format(".{}.{}.{}{}", target.filename().string(), machine_text(), ::getpid(), kTemporarySuffix);
+}
 
 ReplacedFile::ReplacedFile(const fs::path& file) : shown_(file) {
     std::error_code error;
@@ -97,7 +127,7 @@ void remove_stale_parts(const fs::path& folder) {
     std::error_code ignored;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
         const std::optional<pid_t> writer = writer_of(entry.path().filename().string());
-        if (writer && !is_running(*writer)) fs::remove(entry.path(), ignored);
+        if (writer && !is_running(*writer)) fs::remove_all(entry.path(), ignored);
     }
 }
 

@@ -37,8 +37,12 @@ private:
     int descriptor_ = -1;
 };
 
-// Removes the temporary files that killed programs left in a folder. Files of running programs remain. The function
-// knows only the processes of this machine, so do not call it for a folder to which several machines write.
+// Returns the path of the temporary file or folder for a target, in the folder of the target: .NAME.MACHINE.PROCESS.part.
+// Several programs on several machines can write the same target at the same time.
+std::filesystem::path temporary_path(const std::filesystem::path& target);
+
+// Removes the temporary files and folders that killed programs of this machine left in a folder. Those of running
+// programs and of other machines remain.
 void remove_stale_parts(const std::filesystem::path& folder);
 
 }  // namespace stopline

@@ -25,6 +25,12 @@ std::vector<std::string> files_of(const JobOutput& output) {
     return files;
 }
 
+// Returns the hash of a record without its entry "checksum".
+std::string checksum_of(nlohmann::ordered_json json) {
+    json.erase("checksum");
+    return fmt::format("{:016x}", hash_of(json.dump()));
+}
+
 std::string hash_text(const std::filesystem::path& file) { return fmt::format("{:016x}", hash_of(read_file(file))); }
 
 }  // namespace
@@ -46,14 +52,15 @@ void store_record(const std::filesystem::path& folder, const std::string& key, c
     json["violations"] = output.violations;
     json["files"] = nlohmann::ordered_json::object();
     for (const std::string& file : files_of(output)) json["files"][file] = hash_text(folder / file);
+    json["checksum"] = checksum_of(json);
     write_file(folder / kRecord, json.dump(2) + "\n");
 }
 
 std::optional<JobOutput> load_record(const std::filesystem::path& folder, const std::string& key) {
     if (!std::filesystem::exists(folder / kRecord)) return std::nullopt;
     try {
-        const nlohmann::json json = nlohmann::json::parse(read_file(folder / kRecord));
-        if (json.at("key") != key) return std::nullopt;
+        const nlohmann::ordered_json json = nlohmann::ordered_json::parse(read_file(folder / kRecord));
+        if (json.at("key") != key || json.at("checksum") != checksum_of(json)) return std::nullopt;
         JobOutput output;
         json.at("figures").get_to(output.figures);
         json.at("tables").get_to(output.tables);
@@ -63,7 +70,7 @@ std::optional<JobOutput> load_record(const std::filesystem::path& folder, const 
         json.at("seeds").get_to(output.seeds);
         json.at("scenario_hashes").get_to(output.scenario_hashes);
         json.at("violations").get_to(output.violations);
-        const nlohmann::json& hashes = json.at("files");
+        const nlohmann::ordered_json& hashes = json.at("files");
         const std::vector<std::string> files = files_of(output);
         const bool same = std::all_of(files.begin(), files.end(), [&](const std::string& file) {
             return std::filesystem::is_regular_file(folder / file) && hashes.at(file) == hash_text(folder / file);

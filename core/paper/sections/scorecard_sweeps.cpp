@@ -21,12 +21,8 @@ RunStore store_of(const std::filesystem::path& file, const Sweep& sweep, const s
     identity.sweep = sweep.key();
     identity.program = program;
     identity.points = sweep.points();
-    // Delete a store whose runs come from another program or another sweep. A locked or damaged store is not deleted,
-    // because RunStore::open throws first.
-    if (std::filesystem::exists(file)) {
-        const StoreIdentity stored = RunStore::open(file).identity();
-        if (stored.sweep != identity.sweep || stored.program != identity.program) std::filesystem::remove(file);
-    }
+    // A locked or damaged store is not deleted, because is_outdated() throws.
+    if (std::filesystem::exists(file) && RunStore::is_outdated(file, identity)) std::filesystem::remove(file);
     return RunStore::open_or_make(file, identity);
 }
 

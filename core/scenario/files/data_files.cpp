@@ -55,6 +55,7 @@ DataFile read_data_file(const std::string& folder, const SourceNode& reference, 
         path = data_directory() / folder / (reference.text + ".yaml");
     }
     file.stem = path.stem().string();
+    report.add_file(path);
     try {
         file.tree = read_yaml_file(path);
     } catch (const InputError& error) {

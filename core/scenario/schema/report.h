@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <utility>
@@ -25,6 +26,10 @@ public:
     // Returns one line per warning in file order, without repetitions.
     std::vector<std::string> warnings() const;
 
+    // Stores the path of a data file that was read.
+    void add_file(const std::filesystem::path& file) { files_.push_back(file); }
+    const std::vector<std::filesystem::path>& files() const { return files_; }
+
     // Stores the position of a field under its path, such as "populations[0].name".
     void remember(const std::string& path, const Place& place) { places_[path] = place; }
     // Returns true if the file gives the field at `path`.
@@ -43,6 +48,7 @@ private:
     std::vector<Entry> errors_;
     std::vector<Entry> warnings_;
     std::map<std::string, Place> places_;
+    std::vector<std::filesystem::path> files_;
 };
 
 // Collects the errors from a check that compares several fields (Table::check). Paths are relative to the checked
