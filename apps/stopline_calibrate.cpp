@@ -390,7 +390,7 @@ void check_files(const CalibrateCliOptions& options, const std::filesystem::path
         std::error_code ignored;
         if (std::filesystem::is_regular_file(file, ignored)) files.add_input(file, option);
     }
-    const char* const role = "the results in the folder of --output";
+    const char* const role = "a result in the folder of --output";
     if (options.step != "II") files.add_outputs(folder, {"permutations.csv", "differences.csv", "misses.csv"}, role);
     if (options.step != "II" && options.parameters.empty()) {
         files.add_outputs(folder, {"fitted.yaml", "fit_history.csv"}, role);

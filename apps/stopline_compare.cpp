@@ -162,9 +162,9 @@ void check_files(const CompareCliOptions& options, const Scenario& scenario, con
         files.add_outputs(folder / fmt::format("seed_{}", scenario.seed + static_cast<std::uint64_t>(k)),
                           {"vehicles.rou.xml", "lights.add.xml", "detectors.add.xml", "run.sumocfg", "trips.out.xml",
                            "summary.out.xml", "detectors.out.xml"},
-                          "the run of SUMO in the folder of --output");
+                          "a file for SUMO in the folder of --output");
     }
-    files.add_outputs(folder, {"comparison.csv", "stop_lines.csv"}, "the results in the folder of --output");
+    files.add_outputs(folder, {"comparison.csv", "stop_lines.csv"}, "a result in the folder of --output");
 }
 
 ExitCode run(const CompareCliOptions& options) {

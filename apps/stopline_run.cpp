@@ -327,7 +327,7 @@ void check_files(const RunCliOptions& options, const Scenario& scenario, const s
     CommandFiles files;
     add_scenario_inputs(files, options.file, options.common);
     const ColumnNames names = options.common.old_column_names ? ColumnNames::old : ColumnNames::current;
-    files.add_outputs(folder, table_names(scenario, names), "the tables in the folder of --output");
+    files.add_outputs(folder, table_names(scenario, names), "a table in the folder of --output");
     if (options.trajectories && !streams_trajectories) {
         files.add_output(folder / options.trajectories_file, "--trajectories-file");
     }

@@ -123,7 +123,7 @@ ExitCode run(const ScorecardCliOptions& options) {
     const std::filesystem::path folder = options.common.output.empty() ? "out/scorecard" : options.common.output;
     CommandFiles files;
     add_shipped_inputs(files);
-    files.add_outputs(folder, {"scorecard.csv", "scorecard.provenance.json"}, "the results in the folder of --output");
+    files.add_outputs(folder, {"scorecard.csv", "scorecard.provenance.json"}, "a result in the folder of --output");
     files.add_output(options.markdown, "--markdown");
     prepare_folder(folder);
     if (!options.markdown.empty()) prepare_output_file(options.markdown);

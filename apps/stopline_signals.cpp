@@ -147,7 +147,7 @@ void check_files(const SignalsCliOptions& options, const Scenario& scenario) {
         names.push_back("search_" + population.name + ".csv");
         names.push_back("search_" + population.name + ".sqlite");
     }
-    files.add_outputs(folder_of(options), names, "the results in the folder of --output");
+    files.add_outputs(folder_of(options), names, "a result in the folder of --output");
 }
 
 // The search of one population: its sweep, its open store, and the numbers of the runs that the store lacks.

@@ -150,7 +150,7 @@ ExitCode run(const StartupCliOptions& options) {
     files.add_outputs(output_folder(options),
                       {"startup.csv", "startup_fine.csv", "startup.provenance.json", "startup.gp", "startup.svg",
                        "startup.png"},
-                      "the results in the folder of --output");
+                      "a result in the folder of --output");
     files.add_output(options.write, "--write");
     prepare_folder(output_folder(options));
     if (!options.write.empty()) prepare_output_file(options.write);

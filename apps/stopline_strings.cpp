@@ -258,7 +258,7 @@ ExitCode run(const StringsCliOptions& options) {
     files.add_outputs(output_folder(options),
                       {"summary.csv", "positions.csv", "gains.csv", "sweep.csv", "border.csv",
                        "strings.provenance.json"},
-                      "the results in the folder of --output");
+                      "a result in the folder of --output");
     prepare_folder(output_folder(options));
     return options.sweep ? run_sweep(options, scenario, strings) : run_report(options, scenario, strings);
 }

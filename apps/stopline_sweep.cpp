@@ -154,7 +154,7 @@ PreparedSweep prepare(const SweepCliOptions& options, int threads) {
     CommandFiles command_files;
     add_sweep_inputs(command_files, options.file, sweep.settings(), options.common.settings);
     for (const auto& file : {files.store, files.table, files.provenance, means_file(files), folder / kTable1}) {
-        command_files.add_output(file, "the results in the folder of --output");
+        command_files.add_output(file, "a result in the folder of --output");
     }
     prepare_folder(folder);
     RunStore store = open_store(sweep, shard, files, options);

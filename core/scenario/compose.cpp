@@ -186,6 +186,15 @@ std::string entries_text(const SourceNode& list) {
            (names.empty() ? "" : " (" + joined(names) + ")");
 }
 
+// Returns the place of a value in `node` that an override has set; null if there is none.
+const Place* overridden_place(const SourceNode& node) {
+    if (node.place.source && !node.place.source->has_lines) return &node.place;
+    for (const SourceNode& item : node.items) {
+        if (const Place* const place = overridden_place(item)) return place;
+    }
+    return nullptr;
+}
+
 // Sets the field at a path to a value. Reports an error if the path does not exist.
 class Setter {
 public:
@@ -202,6 +211,7 @@ public:
             replace_old_names(*field, value_, here, report_);
             SourceNode* const present = map.find(step.name);
             if (present != nullptr) {
+                check_replacement(*present);
                 *present = std::move(value_);
             } else {
                 map.add({step.name, value_.place}, std::move(value_));
@@ -236,11 +246,21 @@ private:
         const auto* const items = std::get_if<ListField>(&field.kind);
         if (last) {
             if (items != nullptr) replace_old_names(items->table(), value_, path + "[" + wanted + "]", report_);
+            check_replacement(*entry);
             *entry = std::move(value_);
             return;
         }
         if (items == nullptr || entry->kind != Kind::map) return error(path, "has no fields in its entries");
         set(items->table(), *entry, steps, i + 1, path + "[" + wanted + "]");
+    }
+
+    // Reports an error if `present`, which the value replaces, comes from an earlier override. That override would have
+    // no effect. The same override twice is allowed.
+    void check_replacement(const SourceNode& present) {
+        const Place* const earlier = overridden_place(present);
+        if (earlier == nullptr || to_string(*earlier) == to_string(value_.place)) return;
+        report_.error(*earlier, "has no effect, because the later " + to_string(value_.place) +
+                                    " replaces it; give only one of them");
     }
 
     void error(const std::string& path, const std::string& message) {

@@ -18,7 +18,8 @@
 
 namespace stopline {
 
-// Loads a scenario and applies the overrides in their order. An override has the form `path=value`, with the value
+// Loads a scenario and applies the overrides in their order. An override that a later one replaces is an error. An
+// override has the form `path=value`, with the value
 // written as in a scenario file. Examples:
 //     signal.green=20 s    vehicle=diesel_eu4_103kw    vehicle.mass=1.4 t    measure.green=[5 s, 10 s]
 //     populations[0].components[1].share=25 %    policies[CTG-Ref].time_gap=0.6 s

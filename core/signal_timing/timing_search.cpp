@@ -155,18 +155,20 @@ SweepSettings search_settings(const Scenario& scenario, const PopulationTiming& 
 
 std::vector<std::string> search_overrides(const Scenario& scenario, const std::string& population,
                                           const SearchOptions& options) {
-    const std::vector<std::string> searched = timing_overrides(scenario, {});
+    const std::vector<std::string>& listed = options.populations_in_file;
+    std::vector<std::string> own;
+    if (std::find(listed.begin(), listed.end(), population) == listed.end()) {
+        own = {fmt::format("populations=[{}]", population), fmt::format("measure.baseline={}", population)};
+    }
+    std::vector<std::string> replaced = timing_overrides(scenario, {});
+    replaced.insert(replaced.end(), own.begin(), own.end());
     std::vector<std::string> overrides;
     for (const std::string& text : options.overrides) {
         const std::string path = text.substr(0, text.find('='));
         const auto sets_path = [&](const std::string& one) { return one.substr(0, one.find('=')) == path; };
-        if (std::none_of(searched.begin(), searched.end(), sets_path)) overrides.push_back(text);
+        if (std::none_of(replaced.begin(), replaced.end(), sets_path)) overrides.push_back(text);
     }
-    const std::vector<std::string>& listed = options.populations_in_file;
-    if (std::find(listed.begin(), listed.end(), population) == listed.end()) {
-        overrides.push_back(fmt::format("populations=[{}]", population));
-        overrides.push_back(fmt::format("measure.baseline={}", population));
-    }
+    overrides.insert(overrides.end(), own.begin(), own.end());
     return overrides;
 }
 

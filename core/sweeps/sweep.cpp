@@ -30,11 +30,13 @@ std::vector<std::string> names_of_populations(const Scenario& scenario) {
     return names;
 }
 
+std::string no_population_text(const std::string& name) { return fmt::format("has no population '{}'", name); }
+
 void require_populations(const Scenario& scenario, const std::vector<std::string>& wanted) {
     const std::vector<std::string> known = names_of_populations(scenario);
     for (const std::string& name : wanted) {
         if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-        throw InputError(fmt::format("the scenario {} has no population '{}'{}", scenario.name, name,
+        throw InputError(fmt::format("the scenario {} {}{}", scenario.name, no_population_text(name),
                                      known_names_hint(name, known)));
     }
 }
@@ -282,8 +284,36 @@ std::vector<std::size_t> Sweep::values_of(std::size_t combination) const {
     return values;
 }
 
+std::string Sweep::place_of_population(const std::string& problem) const {
+    for (const SweepAxis& axis : settings_.axes) {
+        for (std::size_t i = 0; i < axis.population_places.size(); ++i) {
+            if (problem.find(no_population_text(axis.populations[i])) != std::string::npos) {
+                return axis.population_places[i];
+            }
+        }
+    }
+    return {};
+}
+
+bool Sweep::fails_alone(const SweepAxis& axis, std::size_t value) const {
+    std::vector<std::string> texts = overrides_;
+    for (std::string& text : axis_overrides(axis, value)) texts.push_back(std::move(text));
+    try {
+        load_scenario(settings_.scenario, texts);
+    } catch (const InputError&) {
+        return true;
+    }
+    return false;
+}
+
 std::string Sweep::place_of_problem(std::size_t combination, const std::string& problem) const {
+    if (std::string place = place_of_population(problem); !place.empty()) return place;
     const std::vector<std::size_t> values = values_of(combination);
+    for (std::size_t k = 0; k < columns_.size(); ++k) {
+        if (k == population_column_) continue;
+        const SweepAxis& axis = settings_.axes[columns_[k].axis_index];
+        if (fails_alone(axis, values[k])) return axis.value_places[values[k]];
+    }
     std::string first = settings_.axes.empty() ? settings_.file : settings_.axes[0].place;
     for (std::size_t k = columns_.size(); k-- > 0;) {
         if (k == population_column_) continue;

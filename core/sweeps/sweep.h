@@ -83,9 +83,14 @@ private:
     std::string describe_combination(std::size_t combination) const;
     // Returns, for each column, the index of its value in a combination. For the column of populations the index is 0.
     std::vector<std::size_t> values_of(std::size_t combination) const;
-    // Returns file and line for the error message `problem` about a combination: the place in the sweep file of the
-    // axis value that the message quotes. If the message quotes no axis value, uses the value of the first axis.
+    // Returns the place in the sweep file of the axis value that causes the error `problem` in a combination: the value
+    // with which loading fails even without the other axes, else the value that the message quotes, else the value of
+    // the first axis.
     std::string place_of_problem(std::size_t combination, const std::string& problem) const;
+    // Returns the place of the population that `problem` names as unknown; "" if it names none.
+    std::string place_of_population(const std::string& problem) const;
+    // Returns true if the scenario cannot be loaded with this axis value and without the other axes.
+    bool fails_alone(const SweepAxis& axis, std::size_t value) const;
     void add_columns();
     void check_column_names(std::set<std::string> taken) const;
     void load_combinations(std::size_t count, const SweepOptions& options);

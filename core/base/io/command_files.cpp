@@ -50,12 +50,8 @@ void CommandFiles::add(const fs::path& file, const Entry& entry) {
     if (other != nullptr && (entry.is_output || other->is_output)) {
         const Entry& output = entry.is_output ? entry : *other;
         const Entry& partner = entry.is_output ? *other : entry;
-        throw InputError(fmt::format("{}: '{}' would overwrite {}{}; give another file", output.role,
-                                     output.shown.string(),
-                                     partner.is_output ? "the output of " : "the input file of ",
-                                     partner.shown == output.shown
-                                         ? partner.role
-                                         : fmt::format("{} ('{}')", partner.role, partner.shown.string())));
+        throw InputError(fmt::format("'{}' ({}) would overwrite '{}' ({}); give another file", output.shown.string(),
+                                     output.role, partner.shown.string(), partner.role));
     }
     entries_.push_back(entry);
     by_path_.try_emplace(resolved, entries_.size() - 1);

@@ -15,13 +15,13 @@ namespace stopline {
 // the disk. Devices and pipes are left out, because several outputs may use them.
 class CommandFiles {
 public:
-    // Adds a file that the command reads. `role` names it in messages, such as "the scenario". Throws InputError if an
+    // Adds a file that the command reads. `role` describes it in messages, such as "the scenario". Throws InputError if an
     // output added before is the same file.
     void add_input(const std::filesystem::path& file, const std::string& role);
-    // Adds a file that the command writes. `role` is the option or the folder that names it, such as "--record". Throws
+    // Adds a file that the command writes. `role` is often the option that names it, such as "--record". Throws
     // InputError if an input or an output added before is the same file.
     void add_output(const std::filesystem::path& file, const std::string& role);
-    // Adds outputs with these names in a folder. `role` names the folder.
+    // Adds outputs with these names in a folder.
     void add_outputs(const std::filesystem::path& folder, const std::vector<std::string>& names,
                      const std::string& role);
 

@@ -153,6 +153,10 @@ SweepSettings sweep_from(SourceNode root) {
         for (std::size_t i = 0; i < axis.values.size(); ++i) {
             axis.value_places.push_back(to_string(report.place_of(field + ".values[" + std::to_string(i) + "]")));
         }
+        for (std::size_t i = 0; i < axis.populations.size(); ++i) {
+            axis.population_places.push_back(
+                to_string(report.place_of(field + ".populations[" + std::to_string(i) + "]")));
+        }
     }
     sweep.file = source.label;
     if (sweep.name.empty()) sweep.name = name_from_file(source.label, "sweep");
