@@ -9,6 +9,7 @@
 #include "base/input_error.h"
 #include "base/io/child_process.h"
 #include "base/io/output.h"
+#include "base/io/replaced_file.h"
 
 namespace stopline {
 
@@ -17,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kHead = R"(# Draws {name}.svg and {name}.png from the data beside it: gnuplot {name}.gp
+if (!exists("prefix")) prefix = ''
 if (!exists("suffix")) suffix = ''
 set encoding utf8
 set border 3 lc rgb '#404040'
@@ -32,7 +34,7 @@ set terminal svg size {width},{height} enhanced font 'DejaVu Sans,13' background
 }} else {{
 set terminal pngcairo size {width2},{height2} enhanced font 'DejaVu Sans,13' fontscale 1.5 linewidth 2 pointscale 2 dashlength 1
 }}
-set output '{name}.'.kind.suffix
+set output prefix.'{name}.'.kind.suffix
 {body}
 set output
 }}
@@ -120,10 +122,11 @@ std::vector<fs::path> draw(const Figure& figure, const fs::path& folder) {
     }
     files.push_back(folder / (figure.name + ".gp"));
     write_file(files.back(), script_of(figure));
-    const std::string suffix = ".part";
+    const std::array<fs::path, 2> parts{temporary_path(files[0]), temporary_path(files[1])};
+    const std::string part = parts[0].filename().string();  // .NAME.svg.MACHINE.PROCESS.part
+    const std::string suffix = part.substr(1 + files[0].filename().string().size());
     const ProcessResult ended =
-        run_process({"gnuplot", "-e", "suffix = '" + suffix + "'", figure.name + ".gp"}, folder);
-    const std::array<fs::path, 2> parts{files[0].string() + suffix, files[1].string() + suffix};
+        run_process({"gnuplot", "-e", "prefix = '.'; suffix = '" + suffix + "'", figure.name + ".gp"}, folder);
     const bool succeeded = !ended.failed() && std::all_of(parts.begin(), parts.end(), complete);
     std::error_code error;
     for (std::size_t k = 0; k < parts.size(); ++k) {

@@ -186,15 +186,6 @@ std::string entries_text(const SourceNode& list) {
            (names.empty() ? "" : " (" + joined(names) + ")");
 }
 
-// Returns the place of a value in `node` that an override has set; null if there is none.
-const Place* overridden_place(const SourceNode& node) {
-    if (node.place.source && !node.place.source->has_lines) return &node.place;
-    for (const SourceNode& item : node.items) {
-        if (const Place* const place = overridden_place(item)) return place;
-    }
-    return nullptr;
-}
-
 // Sets the field at a path to a value. Reports an error if the path does not exist.
 class Setter {
 public:
@@ -206,12 +197,12 @@ public:
         const std::string here = join_path(path, step.name);
         const Field* const field = table.find(step.name);
         if (field == nullptr) return error(here, "is unknown" + known_names_hint(step.name, table.names()));
+        reached_ = join_path(reached_, step.name);
         const bool last = i + 1 == steps.size();
         if (last && step.entries.empty()) {
             replace_old_names(*field, value_, here, report_);
             SourceNode* const present = map.find(step.name);
             if (present != nullptr) {
-                check_replacement(*present);
                 *present = std::move(value_);
             } else {
                 map.add({step.name, value_.place}, std::move(value_));
@@ -232,6 +223,9 @@ public:
         if (inner->kind == Kind::map) set(section->table(), *inner, steps, i + 1, here);
     }
 
+    // Returns the path to the value that has been set, with the numbers of list entries in place of their names.
+    const std::string& reached() const { return reached_; }
+
 private:
     void set_entry(const Field& field, SourceNode& map, const std::vector<PathStep>& steps, std::size_t i,
                    const std::string& path) {
@@ -243,24 +237,15 @@ private:
         }
         SourceNode* const entry = find_entry(*list, wanted);
         if (entry == nullptr) return error(path, "has no entry [" + shortened(wanted) + "]; it " + entries_text(*list));
+        reached_ += "[" + std::to_string(entry - list->items.data()) + "]";
         const auto* const items = std::get_if<ListField>(&field.kind);
         if (last) {
             if (items != nullptr) replace_old_names(items->table(), value_, path + "[" + wanted + "]", report_);
-            check_replacement(*entry);
             *entry = std::move(value_);
             return;
         }
         if (items == nullptr || entry->kind != Kind::map) return error(path, "has no fields in its entries");
         set(items->table(), *entry, steps, i + 1, path + "[" + wanted + "]");
-    }
-
-    // Reports an error if `present`, which the value replaces, comes from an earlier override. That override would have
-    // no effect. The same override twice is allowed.
-    void check_replacement(const SourceNode& present) {
-        const Place* const earlier = overridden_place(present);
-        if (earlier == nullptr || to_string(*earlier) == to_string(value_.place)) return;
-        report_.error(*earlier, "has no effect, because the later " + to_string(value_.place) +
-                                    " replaces it; give only one of them");
     }
 
     void error(const std::string& path, const std::string& message) {
@@ -269,6 +254,7 @@ private:
 
     SourceNode value_;
     Report& report_;
+    std::string reached_;
 };
 
 }  // namespace
@@ -304,24 +290,27 @@ void complete(const Table& table, SourceNode& map, const std::string& path, Repo
     }
 }
 
-void apply_override(const Table& table, SourceNode& root, const std::string& text,
-                    const std::filesystem::path& directory, Report& report) {
+std::string apply_override(const Table& table, SourceNode& root, const std::string& text,
+                           const std::filesystem::path& directory, Report& report) {
     const auto equals = text.find('=');
     const auto source = std::make_shared<Source>(Source{"--set '" + shortened(text) + "'", directory, false});
     const Place place{source};
     if (equals == std::string::npos || equals == 0) {
         report.error(place, "needs the form path=value, for instance signal.green=20 s");
-        return;
+        return {};
     }
     const std::string written = text.substr(0, equals);
     const std::string path = current_path(table, written);
     if (path != written) report.warn(place, old_name_warning(shortened(written), shortened(path)));
     try {
         SourceNode value = parse_yaml(std::string_view(text).substr(equals + 1), source);
-        Setter(std::move(value), report).set(table, root, path_steps(path), 0, "");
+        Setter setter(std::move(value), report);
+        setter.set(table, root, path_steps(path), 0, "");
+        return setter.reached();
     } catch (const YamlError& error) {
         report.error(place, error.message());
     }
+    return {};
 }
 
 }  // namespace stopline

@@ -33,19 +33,38 @@ void require_map(const SourceNode& root) {
                      " needs 'field: value' lines (fields: " + joined(scenario_table().names()) + ")");
 }
 
-// Applies the overrides in their order. Reports an error if one override uses the old and another one the new name of
-// the same field.
+// Returns true if setting the field at `path` replaces the whole field at `earlier`: it is the same field, or a part of
+// it.
+bool replaces(const std::string& path, const std::string& earlier) {
+    if (path.empty() || !earlier.starts_with(path)) return false;
+    return earlier.size() == path.size() || earlier[path.size()] == '.' || earlier[path.size()] == '[';
+}
+
+Place place_of_override(const std::string& text, const std::filesystem::path& directory) {
+    return {std::make_shared<Source>(Source{"--set '" + shortened(text) + "'", directory, false})};
+}
+
+// Applies the overrides in their order. Reports an error if a later override replaces an earlier one, which would then
+// have no effect. Also reports an error if one override uses the old and another one the new name of the same field.
 void apply_overrides(SourceNode& root, const std::vector<std::string>& overrides,
                      const std::filesystem::path& directory, Report& report) {
     std::map<std::string, std::string> written_paths;  // current path -> path in the first override of the field
+    std::vector<std::pair<std::string, std::string>> applied;  // path and text of each override so far
     for (const std::string& text : overrides) {
-        apply_override(scenario_table(), root, text, directory, report);
+        const std::string path = apply_override(scenario_table(), root, text, directory, report);
         const std::string written = text.substr(0, text.find('='));
         const std::string current = current_path(scenario_table(), written);
         const std::string& first = written_paths.try_emplace(current, written).first->second;
-        if (first == written) continue;
-        const Place place{std::make_shared<Source>(Source{"--set '" + shortened(text) + "'", directory, false})};
-        report.error(place, both_names_error(first == current ? written : first, current));
+        if (first != written) {
+            report.error(place_of_override(text, directory),
+                         both_names_error(first == current ? written : first, current));
+        }
+        for (const auto& [earlier_path, earlier] : applied) {
+            if (first != written || earlier == text || !replaces(path, earlier_path)) continue;
+            report.error(place_of_override(earlier, directory),
+                         "has no effect, because the later --set '" + shortened(text) + "' replaces it; give only one");
+        }
+        applied.emplace_back(path, text);
     }
 }
 

@@ -56,19 +56,45 @@ TEST(RemoveStaleParts, RemovesPartsOfEndedProcesses) {
     const pid_t ended_process = ::fork();
     if (ended_process == 0) ::_exit(0);
     ASSERT_EQ(::waitpid(ended_process, nullptr, 0), ended_process);
-    folder.write(".a.csv." + std::to_string(ended_process) + ".part", "half");
-    const std::string kept[] = {".a.csv." + std::to_string(::getpid()) + ".part",
-                                "a.csv." + std::to_string(ended_process) + ".part",
+    const std::string own = temporary_path("a.csv").string();  // .a.csv.MACHINE.PROCESS.part
+    const std::string machine = own.substr(6, own.find('.', 7) - 6);
+    const std::string ended = std::to_string(ended_process);
+    folder.write(".a.csv" + machine + "." + ended + ".part", "half");
+    folder.write(".a.sqlite" + machine + "." + ended + ".part-wal", "half");
+    fs::create_directory(folder.path() / (".files" + machine + "." + ended + ".part"));
+    folder.write(".files" + machine + "." + ended + ".part/net.xml", "half");
+    const std::string kept[] = {own,
+                                ".a.csv.otherhost." + ended + ".part",
+                                "a.csv" + machine + "." + ended + ".part",
                                 ".a.csv.part",
-                                ".a.csv.-1.part",
-                                ".a.csv.12x.part",
-                                "." + std::to_string(ended_process) + ".part",
-                                ".a.csv." + std::to_string(ended_process)};
+                                ".a.csv" + machine + ".-1.part",
+                                ".a.csv" + machine + ".12x.part",
+                                "." + ended + ".part",
+                                ".a.csv" + machine + "." + ended};
     for (const std::string& name : kept) folder.write(name, "other");
-    remove_stale_parts(folder.path());
+    prepare_folder(folder.path());  // calls remove_stale_parts()
     for (const std::string& name : kept) EXPECT_TRUE(fs::exists(folder.path() / name)) << name;
     EXPECT_EQ(count_files(folder.path()), std::size(kept));
     remove_stale_parts(folder.path() / "none");
+}
+
+TEST(PrepareOutputFile, ReportsAFileThatCannotBeWritten) {
+    const TemporaryFolder folder;
+    const fs::path file = folder.write("a.yaml", "old");
+    const auto error_of = [](const fs::path& wanted) {
+        return input_error_of([&] { prepare_output_file(wanted); });
+    };
+    EXPECT_EQ(error_of(file), "");
+    EXPECT_EQ(read_text(file), "old");
+    EXPECT_EQ(error_of(folder.path() / "new" / "b.yaml"), "");
+    EXPECT_FALSE(fs::exists(folder.path() / "new" / "b.yaml"));
+    EXPECT_TRUE(contains(error_of(folder.path()), "Is a directory"));
+    EXPECT_TRUE(contains(error_of(folder.path() / ""), "add the name of a file"));
+    EXPECT_TRUE(contains(error_of(file / "below"), "Not a directory"));
+    EXPECT_EQ(error_of("/dev/null"), "");
+    EXPECT_TRUE(contains(error_of(folder.path() / std::string(250, 'x')), "File name too long"))
+        << "the temporary file needs a longer name";
+    EXPECT_EQ(count_files(folder.path()), 2U) << "a temporary file is left";
 }
 
 TEST(WriteFile, ReportsAFullDevice) {

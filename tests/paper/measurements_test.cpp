@@ -47,6 +47,19 @@ TEST(Measurements, AreNotReusedFromADamagedFile) {
     }
 }
 
+TEST(Measurements, AreNotReusedIfANumberHasChanged) {
+    const TemporaryFolder folder;
+    const auto file = folder.path() / "m.csv";
+    store_measurements(file, "key 1", example_measurements());
+    std::string text = read_text(file);
+    text.replace(text.find("17"), 2, "16");
+    folder.write("m.csv", text);
+    EXPECT_FALSE(load_measurements(file, "key 1"));
+    text.resize(text.find("tiny"));
+    folder.write("m.csv", text);
+    EXPECT_FALSE(load_measurements(file, "key 1")) << "rows are missing";
+}
+
 TEST(ResultsKey, ChangesWithTheScenario) {
     const auto key = results_key(short_scenario());
     ASSERT_TRUE(key);

@@ -69,6 +69,49 @@ TEST_F(RunStoreTest, IsLockedWhileAProgramHasItOpen) {
     EXPECT_TRUE(contains(input_error_of([&] { static_cast<void>(RunStore::open(file_)); }), "another program"));
 }
 
+// Executes SQL on the file, as damage that SQLite itself cannot notice.
+void change(const std::filesystem::path& file, const char* sql) {
+    sqlite3* database = nullptr;
+    ASSERT_EQ(sqlite3_open(file.c_str(), &database), SQLITE_OK);
+    EXPECT_EQ(sqlite3_exec(database, sql, nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(database);
+    sqlite3_close(database);
+}
+
+TEST_F(RunStoreTest, RefusesRunsThatDoNotMatchTheirChecksum) {
+    const char* const changes[] = {"UPDATE runs SET result = 'a=2' || char(10) WHERE point = 3",
+                                   "UPDATE runs SET point = 2 WHERE point = 3",
+                                   "UPDATE runs SET point = 5 WHERE point = 3",
+                                   "UPDATE runs SET point = -1 WHERE point = 3",
+                                   "UPDATE runs SET checksum = '' WHERE point = 3",
+                                   "UPDATE runs SET result = CAST(result AS BLOB) WHERE point = 3",
+                                   "UPDATE meta SET value = '6' WHERE key = 'points'",
+                                   "UPDATE meta SET value = 'x' WHERE key = 'provenance'"};
+    for (const char* const sql : changes) {
+        std::filesystem::remove(file_);
+        {
+            RunStore store = RunStore::open_or_make(file_, identity());
+            store.put(1, "a=0\n");
+            store.put(3, "a=1\n");
+        }
+        change(file_, sql);
+        EXPECT_TRUE(contains(open_error(identity()), "the store is damaged: ")) << sql << "\n" << open_error(identity());
+        EXPECT_TRUE(contains(open_error(identity()), file_.string() + ": ")) << sql;
+        EXPECT_TRUE(contains(input_error_of([&] { static_cast<void>(RunStore::open(file_)); }), "damaged")) << sql;
+    }
+}
+
+TEST_F(RunStoreTest, RefusesAnotherVersionOfTheStore) {
+    static_cast<void>(RunStore::open_or_make(file_, identity()));
+    EXPECT_FALSE(RunStore::is_outdated(file_, identity()));
+    StoreIdentity other = identity();
+    other.program = "stopline 0.1, program 2";
+    EXPECT_TRUE(RunStore::is_outdated(file_, other));
+    change(file_, "UPDATE meta SET value = 'stopline runs 1' WHERE key = 'format'");
+    EXPECT_TRUE(contains(open_error(identity()), "another version of the program wrote this store"));
+    EXPECT_TRUE(contains(open_error(identity()), "'stopline runs 1'"));
+    EXPECT_TRUE(RunStore::is_outdated(file_, identity()));
+}
+
 TEST_F(RunStoreTest, RefusesOtherFiles) {
     EXPECT_TRUE(contains(input_error_of([&] { static_cast<void>(RunStore::open(file_)); }), "no such file"));
     folder_.write("green.sqlite", std::string(5000, 'x'));

@@ -44,6 +44,16 @@ wait_for() {
     done
 }
 
+# machine_number: prints the number of this machine in the names of partial files, a hash of its name (FNV-1a)
+machine_number() {
+    python3 -c '
+import socket
+number = 0x811c9dc5
+for byte in socket.gethostname().encode():
+    number = (number ^ byte) * 0x01000193 & 0xffffffff
+print(f"{number:08x}")'
+}
+
 # on_terminal PATTERN COMMAND...: runs COMMAND on a new terminal and interrupts it as soon as the terminal shows
 # PATTERN. The terminal's text is in $work/typescript.
 on_terminal() {

@@ -70,11 +70,12 @@ for ms in 50 200 400 800 1200 1600; do
     wait $pid 2>/dev/null
 done
 mkdir -p "$work/killed/figures" "$work/killed/runs_reduced/startup"
-# The name of a partial file contains the number of the process that writes the file. The two files below have the
-# number ($!) of a process that has already ended. The next run must remove both files.
+# The name of a partial file contains a number of the machine and the number of the process that writes the file. The
+# two files below have the number ($!) of a process that has already ended. The next run must remove both files.
 sleep 0 &
 wait $!
-touch "$work/killed/figures/.fig05_counters.svg.$!.part" "$work/killed/runs_reduced/startup/.startup.csv.$!.part"
+part=$(machine_number).$!.part
+touch "$work/killed/figures/.fig05_counters.svg.$part" "$work/killed/runs_reduced/startup/.startup.csv.$part"
 report "$work/killed" >/dev/null || fail "after kills: exit code $?"
 find "$work/killed" -name '.*.part' | grep -q . && fail "partial files of killed programs are left: $(find "$work/killed" -name '.*.part')"
 same_report "after kills" "$work/killed"

@@ -153,6 +153,11 @@ TEST_F(Record, IsRejectedIfDamaged) {
         folder_.write("job.json", whole.substr(0, size));
         EXPECT_FALSE(load_record(folder_.path(), "key")) << size;
     }
+    std::string changed = whole;  // a changed character of the text gives another valid record
+    const std::size_t letter = changed.find("\"violations\": ") + 14;
+    changed[letter] = changed[letter] == '1' ? '2' : '1';
+    folder_.write("job.json", changed);
+    EXPECT_FALSE(load_record(folder_.path(), "key"));
     folder_.write("job.json", "[]");
     EXPECT_FALSE(load_record(folder_.path(), "key"));
     fs::remove(folder_.path() / "job.json");
