@@ -316,7 +316,7 @@ std::vector<std::string> table_names(const Scenario& scenario, ColumnNames names
     for (const TableDoc& table : table_docs()) {
         if (!table.name.starts_with(group)) continue;
         std::string file(table.name.substr(group.size()));
-        if (file != kTrajectoriesName) files.push_back(result_file(table.name, std::move(file), "", names).name);
+        if (file != kTrajectoriesName) files.push_back(result_file_name(table.name, std::move(file), names));
     }
     return files;
 }

@@ -44,8 +44,8 @@ Place place_of_override(const std::string& text, const std::filesystem::path& di
     return {std::make_shared<Source>(Source{"--set '" + shortened(text) + "'", directory, false})};
 }
 
-// Applies the overrides in their order. Reports an error if a later override replaces an earlier one, which would then
-// have no effect. Also reports an error if one override uses the old and another one the new name of the same field.
+// Applies the overrides in their order. Warns if a later override replaces an earlier one, which then has no effect.
+// Reports an error if one override uses the old and another one the new name of the same field.
 void apply_overrides(SourceNode& root, const std::vector<std::string>& overrides,
                      const std::filesystem::path& directory, Report& report) {
     std::map<std::string, std::string> written_paths;  // current path -> path in the first override of the field
@@ -61,8 +61,8 @@ void apply_overrides(SourceNode& root, const std::vector<std::string>& overrides
         }
         for (const auto& [earlier_path, earlier] : applied) {
             if (first != written || earlier == text || !replaces(path, earlier_path)) continue;
-            report.error(place_of_override(earlier, directory),
-                         "has no effect, because the later --set '" + shortened(text) + "' replaces it; give only one");
+            report.warn(place_of_override(earlier, directory),
+                        "has no effect, because the later --set '" + shortened(text) + "' replaces it");
         }
         applied.emplace_back(path, text);
     }

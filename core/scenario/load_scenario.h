@@ -18,13 +18,12 @@
 
 namespace stopline {
 
-// Loads a scenario and applies the overrides in their order. An override that a later one replaces is an error. An
-// override has the form `path=value`, with the value
+// Loads a scenario and applies the overrides in their order. An override has the form `path=value`, with the value
 // written as in a scenario file. Examples:
 //     signal.green=20 s    vehicle=diesel_eu4_103kw    vehicle.mass=1.4 t    measure.green=[5 s, 10 s]
 //     populations[0].components[1].share=25 %    policies[CTG-Ref].time_gap=0.6 s
 // Scenario::warnings lists the outdated field names (those of the previous release) that the files or the overrides
-// use.
+// use, and the overrides that later ones replace.
 Scenario load_scenario(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
 // Loads a scenario from text. `label` stands for the file in messages. Relative paths in the text start at `directory`.

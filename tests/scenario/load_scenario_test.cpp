@@ -216,18 +216,27 @@ TEST(Overrides, AreAppliedFromLeftToRight) {
     EXPECT_EQ(s.measure.green_s, (std::vector<double>{5.0, 7.0}));
 }
 
-TEST(Overrides, AreRefusedIfALaterOneReplacesThem) {
-    EXPECT_EQ(error_of(kSmall, {"signal.green=20 s", "signal.green=25 s"}),
-              "--set 'signal.green=20 s': has no effect, because the later --set 'signal.green=25 s' replaces it; give "
-              "only one");
+TEST(Overrides, GiveAWarningIfALaterOneReplacesThem) {
+    const auto warnings_for = [](const std::vector<std::string>& overrides) {
+        return parse_scenario(kSmall, "x", overrides).warnings;
+    };
+    const Scenario s = parse_scenario(kSmall, "x", {"signal.green=20 s", "signal.green=25 s"});
+    EXPECT_EQ(s.signal.green_s, 25.0);
+    EXPECT_EQ(s.warnings, (std::vector<std::string>{"--set 'signal.green=20 s': has no effect, because the later --set "
+                                                    "'signal.green=25 s' replaces it"}));
     for (const auto& [earlier, later] : std::vector<std::pair<std::string, std::string>>{
              {"vehicle.mass=1.4 t", "vehicle=diesel_eu4_103kw"},
              {"vehicle=petrol_eu4_72kw", "vehicle=diesel_eu4_103kw"},
              {"policies[CTG-Ref].time_gap=0.6 s", "policies[2].time_gap=0.7 s"},
              {"measure.green[1]=7 s", "measure.green=[5 s, 6 s]"}}) {
-        EXPECT_TRUE(contains(error_of(kSmall, {earlier, later}), "--set '" + earlier + "': has no effect")) << earlier;
-        if (later.find('[') == std::string::npos) EXPECT_EQ(error_of(kSmall, {later, earlier}), "") << earlier;
+        const std::vector<std::string> warnings = warnings_for({earlier, later});
+        ASSERT_EQ(warnings.size(), 1U) << earlier;
+        EXPECT_TRUE(contains(warnings[0], "--set '" + earlier + "': has no effect")) << earlier;
     }
+    // A part of a section or list that is set later is no replacement.
+    EXPECT_TRUE(warnings_for({"vehicle=diesel_eu4_103kw", "vehicle.mass=1.4 t", "measure.green=[5 s, 6 s]",
+                              "measure.green[1]=7 s"})
+                    .empty());
 }
 
 TEST(Overrides, ReachAllFieldsAndEntries) {

@@ -226,12 +226,15 @@ std::string with_old_names(std::string_view table, const std::string& csv) {
     return old.text();
 }
 
-ResultFile result_file(std::string_view table, std::string file, std::string csv, ColumnNames names) {
-    if (names == ColumnNames::current) return {std::move(file), std::move(csv)};
+std::string result_file_name(std::string_view table, std::string file, ColumnNames names) {
     const auto found =
         std::find_if(kFiles.begin(), kFiles.end(), [&](const FileAlias& alias) { return alias.table == table; });
-    if (found != kFiles.end()) file = found->old_file;
-    return {std::move(file), with_old_names(table, csv)};
+    return names == ColumnNames::current || found == kFiles.end() ? file : std::string(found->old_file);
+}
+
+ResultFile result_file(std::string_view table, std::string file, std::string csv, ColumnNames names) {
+    file = result_file_name(table, std::move(file), names);
+    return {std::move(file), names == ColumnNames::current ? std::move(csv) : with_old_names(table, csv)};
 }
 
 std::string old_names_markdown() {

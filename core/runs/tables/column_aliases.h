@@ -43,6 +43,9 @@ std::vector<std::string> use_current_column_names(std::string_view name, CsvTabl
 // Returns the CSV text with the old names of its columns and cell values.
 std::string with_old_names(std::string_view table, const std::string& csv);
 
+// Returns the name of the file for a result table, which is `file` or its old name.
+std::string result_file_name(std::string_view table, std::string file, ColumnNames names);
+
 struct ResultFile {
     std::string name;
     std::string text;

@@ -63,7 +63,7 @@ for kind in cut flip result; do
     done
     echo "$kind of $size bytes: $same times the same table, $refused times refused"
 done
-[ $refused -eq 60 ] || fail "a changed result was accepted $same times"
+[ "$refused" -eq 60 ] || fail "a changed result was accepted $same times"
 grep -qE "damaged: .*remove the file and repeat the command" "$work/stderr" || fail "no advice: $(cat "$work/stderr")"
 
 # A damaged part of a sweep is not joined.

@@ -55,7 +55,7 @@ refused_axis "axis with an empty list" '{name: a, path: signal.green, values: []
 refused_axis "value without unit" '{name: a, path: signal.green, values: [9 s, 5]}' "bad.yaml:3:47" "'5' has no unit" "5 s"
 refused_axis "value out of range" '{name: a, path: demand.vehicles, values: [0]}' "'0' is out of range" "1 to 100000"
 refused_axis "unknown vehicle" '{name: a, path: vehicle, values: [petrol]}' "bad.yaml:3:37: " "a = petrol" "there is no 'petrol'"
-refused_axis "unknown population" '{name: a, populations: [CDG, CGT-Ref]}' "bad.yaml:3:10: " "no population 'CGT-Ref'"
+refused_axis "unknown population" '{name: a, populations: [CDG, CGT-Ref]}' "bad.yaml:3:32: " "no population 'CGT-Ref'"
 refused_axis "unknown policy" "{name: a, path: 'policies[CGT].time_gap', values: [1 s]}" "a = 1 s" "no entry [CGT]"
 refused_axis "value that violates a check" '{name: a, path: signal.green, values: [20 s, 9 s]}' "bad.yaml:3:48: " "with a = 9 s" \
     "measure.green[1]"
