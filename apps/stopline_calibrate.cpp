@@ -385,8 +385,10 @@ void check_files(const CalibrateCliOptions& options, const std::filesystem::path
     };
     if (options.step != "II") add_sweep(options.timing_sweep, "calibration.yaml");
     if (options.step != "I") add_sweep(options.metrics_sweep, "intersection.yaml");
-    for (const auto& [option, file] : {std::pair{"--start", options.start}, {"--reference", options.reference},
-                                       {"--parameters", options.parameters}, {"--accepted", options.accepted}}) {
+    for (const auto& [option, file] : {std::pair{"--start", options.start},
+                                       {"--reference", options.reference},
+                                       {"--parameters", options.parameters},
+                                       {"--accepted", options.accepted}}) {
         std::error_code ignored;
         if (std::filesystem::is_regular_file(file, ignored)) files.add_input(file, option);
     }

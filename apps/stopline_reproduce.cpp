@@ -8,9 +8,9 @@
 #include <fmt/ranges.h>
 
 #include "base/input_error.h"
+#include "base/io/console.h"
 #include "base/io/data_directory.h"
 #include "common/command_line.h"
-#include "common/console.h"
 #include "common/examples.h"
 #include "common/program.h"
 #include "common/progress_bar.h"

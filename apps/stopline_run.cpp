@@ -14,9 +14,9 @@
 
 #include "base/input_error.h"
 #include "base/io/command_files.h"
+#include "base/io/console.h"
 #include "base/io/output.h"
 #include "common/command_line.h"
-#include "common/console.h"
 #include "common/examples.h"
 #include "common/intersection_text.h"
 #include "common/network_text.h"
@@ -361,8 +361,8 @@ ExitCode run(const RunCliOptions& options) {
     }
     RunFiles run_files(files, scenario, command_text("stopline-run", options.file, options.common));
     check_files(options, scenario, folder, run_files, reporter.streams_trajectories);
-    prepare_folder(folder);
     run_files.prepare();
+    prepare_folder(folder);
     if (options.trajectories && !reporter.streams_trajectories) prepare_output_file(folder / options.trajectories_file);
     return reporter.run(options, scenario, interval_s, folder, run_files);
 }

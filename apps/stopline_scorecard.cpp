@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include "base/io/command_files.h"
+#include "base/io/console.h"
 #include "base/io/data_directory.h"
 #include "base/io/output.h"
 #include "common/command_line.h"
-#include "common/console.h"
 #include "common/examples.h"
 #include "common/program.h"
 #include "common/progress_bar.h"
@@ -125,8 +125,8 @@ ExitCode run(const ScorecardCliOptions& options) {
     add_shipped_inputs(files);
     files.add_outputs(folder, {"scorecard.csv", "scorecard.provenance.json"}, "a result in the folder of --output");
     files.add_output(options.markdown, "--markdown");
-    prepare_folder(folder);
     if (!options.markdown.empty()) prepare_output_file(options.markdown);
+    prepare_folder(folder);
     const Scorecard scorecard = score(options, folder);
     print_warnings(scorecard.warnings);
     const std::string csv = scorecard_csv(scorecard);
@@ -149,7 +149,7 @@ ExitCode run(const ScorecardCliOptions& options) {
     }
     if (scorecard.violations > 0.0) {
         print_message("VIOLATIONS in the runs of this table (overlaps, entries on red, lost vehicles): {:.0f}\n",
-                   scorecard.violations);
+                      scorecard.violations);
         return ExitCode::check_failed;
     }
     return options.strict && misses > 0 ? ExitCode::check_failed : ExitCode::done;

@@ -11,9 +11,9 @@
 
 #include "base/input_error.h"
 #include "base/io/command_files.h"
+#include "base/io/console.h"
 #include "base/io/output.h"
 #include "common/command_line.h"
-#include "common/console.h"
 #include "common/examples.h"
 #include "common/program.h"
 #include "common/progress_bar.h"

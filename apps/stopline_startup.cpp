@@ -147,13 +147,13 @@ ExitCode run(const StartupCliOptions& options) {
     CommandFiles files;
     add_scenario_inputs(files, file, options.common);
     files.add_input(measured_file(options), "--measured");
-    files.add_outputs(output_folder(options),
-                      {"startup.csv", "startup_fine.csv", "startup.provenance.json", "startup.gp", "startup.svg",
-                       "startup.png"},
-                      "a result in the folder of --output");
+    files.add_outputs(
+        output_folder(options),
+        {"startup.csv", "startup_fine.csv", "startup.provenance.json", "startup.gp", "startup.svg", "startup.png"},
+        "a result in the folder of --output");
     files.add_output(options.write, "--write");
-    prepare_folder(output_folder(options));
     if (!options.write.empty()) prepare_output_file(options.write);
+    prepare_folder(output_folder(options));
     if (options.fit) fit_driver(options, curve, scenario);
     const StartupReport report = report_startup(scenario, curve);
     fmt::print("Start of vehicle {} with driver {}, compared with {}\n\n{}", report.vehicle, report.driver,

@@ -255,10 +255,10 @@ ExitCode run(const StringsCliOptions& options) {
     const StringOptions strings = string_options(options, scenario);
     CommandFiles files;
     add_scenario_inputs(files, file, options.common);
-    files.add_outputs(output_folder(options),
-                      {"summary.csv", "positions.csv", "gains.csv", "sweep.csv", "border.csv",
-                       "strings.provenance.json"},
-                      "a result in the folder of --output");
+    files.add_outputs(
+        output_folder(options),
+        {"summary.csv", "positions.csv", "gains.csv", "sweep.csv", "border.csv", "strings.provenance.json"},
+        "a result in the folder of --output");
     prepare_folder(output_folder(options));
     return options.sweep ? run_sweep(options, scenario, strings) : run_report(options, scenario, strings);
 }

@@ -13,11 +13,11 @@
 
 #include "base/input_error.h"
 #include "base/io/command_files.h"
+#include "base/io/console.h"
 #include "base/io/csv.h"
 #include "base/io/data_directory.h"
 #include "base/io/output.h"
 #include "common/command_line.h"
-#include "common/console.h"
 #include "common/examples.h"
 #include "common/program.h"
 #include "common/progress_bar.h"
@@ -29,6 +29,7 @@
 #include "scenario/schema/quantity.h"
 #include "scenario/sweep_file/load_sweep.h"
 #include "sweep/ranks.h"
+#include "sweep/sweep_text.h"
 #include "sweeps/seed_means.h"
 #include "sweeps/sweep_merge.h"
 #include "sweeps/sweep_results.h"
@@ -103,21 +104,6 @@ Sweep expand_sweep(const SweepCliOptions& options, int threads) {
     }();
     print_warnings(sweep.warnings());
     return sweep;
-}
-
-std::string points_csv(const Sweep& sweep, const Shard& shard) {
-    std::vector<std::string> columns = sweep.columns();
-    columns.insert(columns.begin(), "point");
-    columns.emplace_back("seed");
-    CsvWriter csv(columns);
-    for (std::size_t point = 0; point < sweep.points(); ++point) {
-        if (!shard.has(point)) continue;
-        std::vector<std::string> cells = sweep.cells(point);
-        cells.insert(cells.begin(), fmt::format("{}", point));
-        cells.push_back(fmt::format("{}", sweep.seed(point)));
-        csv.row(cells);
-    }
-    return csv.text();
 }
 
 RunStore open_store(const Sweep& sweep, const Shard& shard, const SweepFiles& files, const SweepCliOptions& options) {
@@ -201,39 +187,6 @@ SweepSession run_all(PreparedSweep& work, Ranks& ranks, int threads, double sile
 
 ExitCode verdict_of(const SweepTotals& totals) {
     return totals.runs_with_violations == 0 && totals.starving_runs == 0 ? ExitCode::done : ExitCode::check_failed;
-}
-
-std::string totals_text(const SweepTotals& totals) {
-    TextTable table("lr");
-    table.add_row({"runs", fmt::format("{}", totals.runs)});
-    table.add_row({"vehicle updates", fmt::format("{}", totals.updates)});
-    table.add_row({"overlaps", fmt::format("{}", totals.overlaps)});
-    table.add_row({"entries on red", fmt::format("{}", totals.red_entries)});
-    table.add_row({"lost vehicles", fmt::format("{}", totals.lost_vehicles)});
-    if (totals.deadlocks) table.add_row({"deadlocks", fmt::format("{}", *totals.deadlocks)});
-    table.add_row({"runs with any of these violations", fmt::format("{}", totals.runs_with_violations)});
-    if (totals.gridlocks) {
-        table.add_row({"gridlocks", fmt::format("{}", *totals.gridlocks)});
-        table.add_row({"teleported vehicles", fmt::format("{}", totals.teleported)});
-    }
-    if (totals.gridlocks || totals.deadlocks) {
-        table.add_row({"runs with starving movements", fmt::format("{}", totals.starving_runs)});
-    }
-    if (totals.longest_in_junction_s > 0.0) {
-        table.add_row({"longest time in a junction", fmt::format("{:.1f} s", totals.longest_in_junction_s)});
-    }
-    std::string text = table.text();
-    if (totals.measured_in_warm_up > 0) {
-        text += fmt::format(
-            "In {} of {} runs the measured window begins before the end of the warm-up (window_from_s, warm_up_s).\n",
-            totals.measured_in_warm_up, totals.runs);
-    }
-    if (totals.with_backlog > 0) {
-        text += fmt::format(
-            "In {} of {} runs a backlog of vehicles that found no room to enter is left (column backlog).\n",
-            totals.with_backlog, totals.runs);
-    }
-    return text;
 }
 
 // Prints the number, duration and speed of the runs of this session. `workers` is a text such as "4 threads".
@@ -386,13 +339,12 @@ ExitCode run_sweep(const SweepCliOptions& options, Ranks& ranks) {
             const std::size_t missing = missing_points(work->sweep, work->shard, work->store).size();
             const std::size_t runs = count_runs(work->sweep, work->shard);
             print_message("stopline-sweep: {} of {} runs are stored; the same command continues with the others\n",
-                       runs - missing, runs);
+                          runs - missing, runs);
             throw;
         }
     }();
     if (ranks.lost() > 0) {
-        print_message("stopline-sweep: {} of {} ranks died; the others did their runs\n", ranks.lost(),
-                   ranks.count());
+        print_message("stopline-sweep: {} of {} ranks died; the others did their runs\n", ranks.lost(), ranks.count());
     }
     const std::string workers = ranks.count() > 1 ? fmt::format("{} ranks", ranks.count() - 1)
                                                   : fmt::format("{} thread{}", threads, threads == 1 ? "" : "s");

@@ -9,8 +9,8 @@
 #include <fmt/ranges.h>
 
 #include "base/input_error.h"
+#include "base/io/console.h"
 #include "base/nearest_name.h"
-#include "common/console.h"
 #include "common/examples.h"
 #include "common/text_table.h"
 #include "runs/metrics/metric_groups.h"

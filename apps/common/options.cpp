@@ -7,8 +7,8 @@
 #include <CLI/CLI.hpp>
 
 #include "base/input_error.h"
+#include "base/io/console.h"
 #include "base/version.h"
-#include "common/console.h"
 #include "common/examples.h"
 #include "scenario/schema/quantity.h"
 
@@ -170,8 +170,7 @@ std::optional<ExitCode> Options::parse(int argc, const char* const* argv) {
         app_->exit(success);  // prints the help or the version
         return ExitCode::done;
     } catch (const CLI::ParseError& error) {
-        print_message("{}: {}\nTry: {} --help\n", app_->get_name(), error.what(),
-                   program_command(app_->get_name()));
+        print_message("{}: {}\nTry: {} --help\n", app_->get_name(), error.what(), program_command(app_->get_name()));
         return ExitCode::bad_input;
     }
     return std::nullopt;

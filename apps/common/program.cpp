@@ -12,7 +12,7 @@
 #include <signal.h>  // SIGHUP and SIGPIPE are POSIX
 
 #include "base/input_error.h"
-#include "common/console.h"
+#include "base/io/console.h"
 
 namespace stopline {
 

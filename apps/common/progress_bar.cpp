@@ -9,7 +9,7 @@
 
 #include <fmt/core.h>
 
-#include "common/console.h"
+#include "base/io/console.h"
 #include "common/program.h"
 
 namespace stopline {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <system_error>
 
 #include <fmt/format.h>
 
@@ -109,8 +108,10 @@ void add_run_files_options(Options& app, RunFilesOptions& options) {
         "Write the positions of all vehicles as SUMO floating car data (XML). A file that ends with .gz or .zst is compressed, here "
         "and below");
     time("--record-interval", options.interval, framed, "With --record or --fcd: time between frames (default: 1 s)");
-    time("--record-from", options.from, timed, "With --record, --fcd or --trajectories: time of the first frame (default: 0 s)");
-    time("--record-until", options.until, timed, "With --record, --fcd or --trajectories: time of the last frame (default: end of the run)");
+    time("--record-from", options.from, timed,
+         "With --record, --fcd or --trajectories: time of the first frame (default: 0 s)");
+    time("--record-until", options.until, timed,
+         "With --record, --fcd or --trajectories: time of the last frame (default: end of the run)");
     file("--tripinfo", options.tripinfo, "Write finished trips as SUMO tripinfo (XML)");
     file("--e1", options.loops, "Write the counts of the detectors as SUMO induction loops (XML)");
     time("--e1-interval", options.loop_interval, {"--e1"}, "With --e1: counting interval (default: 60 s)");
@@ -159,12 +160,11 @@ void RunFiles::refuse_names_of_figures(const std::filesystem::path& folder) cons
     constexpr std::array kEndings{".svg", ".png", ".gp", ".dat"};
     for (const FileKind& kind : kinds_) {
         const std::filesystem::path file(kind.path);
-        const std::filesystem::path parent = file.has_parent_path() ? file.parent_path() : ".";
-        std::error_code ignored;
-        const bool is_beside = std::filesystem::equivalent(parent, folder, ignored);
+        const bool is_beside = resolved_path(file).parent_path() == resolved_path(folder);
         if (!is_beside || std::find(kEndings.begin(), kEndings.end(), file.extension()) == kEndings.end()) continue;
-        throw InputError(fmt::format("{}: figures in the folder of --output can have the name '{}'; give another ending",
-                                     kind.option, kind.path));
+        throw InputError(
+            fmt::format("{}: figures in the folder of --output can have the name '{}'; give another ending",
+                        kind.option, kind.path));
     }
 }
 

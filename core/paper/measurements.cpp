@@ -21,7 +21,8 @@ constexpr const char* kChecksumRow = "checksum";  // last row of the file
 
 std::string checksum_of(const Measurements& measurements) {
     std::string text;
-    for (const auto& [name, value] : measurements.values()) text += name + (std::isnan(value) ? " nan\n" : fmt::format(" {:a}\n", value));
+    for (const auto& [name, value] : measurements.values())
+        text += name + (std::isnan(value) ? " nan\n" : fmt::format(" {:a}\n", value));
     return fmt::format("{:016x}", hash_of(text));
 }
 

@@ -36,9 +36,7 @@ NewFolders::~NewFolders() {
 }
 
 StagedFolder::StagedFolder(const fs::path& folder)
-    : folder_(without_last_slash(folder)),
-      new_folders_(folder_),
-      stage_(temporary_path(folder_ / "files")) {
+    : folder_(without_last_slash(folder)), new_folders_(folder_), stage_(temporary_path(folder_ / "files")) {
     prepare_folder(stage_);
 }
 

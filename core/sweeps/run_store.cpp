@@ -218,7 +218,8 @@ std::map<std::string, std::string> RunStore::meta_rows() const {
     for (; code == SQLITE_ROW; code = statement.step()) rows[statement.text(0)] = statement.text(1);
     if (code != SQLITE_DONE && code != SQLITE_ERROR) fail(code);
     if (!rows["format"].starts_with(kFormatOfAnyVersion)) {
-        throw InputError(fmt::format("{}: the file is not a store of stopline-sweep, or it is damaged", file_.string()));
+        throw InputError(
+            fmt::format("{}: the file is not a store of stopline-sweep, or it is damaged", file_.string()));
     }
     return rows;
 }

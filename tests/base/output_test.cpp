@@ -81,9 +81,7 @@ TEST(RemoveStaleParts, RemovesPartsOfEndedProcesses) {
 TEST(PrepareOutputFile, ReportsAFileThatCannotBeWritten) {
     const TemporaryFolder folder;
     const fs::path file = folder.write("a.yaml", "old");
-    const auto error_of = [](const fs::path& wanted) {
-        return input_error_of([&] { prepare_output_file(wanted); });
-    };
+    const auto error_of = [](const fs::path& wanted) { return input_error_of([&] { prepare_output_file(wanted); }); };
     EXPECT_EQ(error_of(file), "");
     EXPECT_EQ(read_text(file), "old");
     EXPECT_EQ(error_of(folder.path() / "new" / "b.yaml"), "");

@@ -228,7 +228,7 @@ TEST(Overrides, GiveAWarningIfALaterOneReplacesThem) {
              {"vehicle.mass=1.4 t", "vehicle=diesel_eu4_103kw"},
              {"vehicle=petrol_eu4_72kw", "vehicle=diesel_eu4_103kw"},
              {"policies[CTG-Ref].time_gap=0.6 s", "policies[2].time_gap=0.7 s"},
-             {"measure.green[1]=7 s", "measure.green=[5 s, 6 s]"}}) {
+             {"populations[0].pattern=random", "populations=[CDG]"}}) {
         const std::vector<std::string> warnings = warnings_for({earlier, later});
         ASSERT_EQ(warnings.size(), 1U) << earlier;
         EXPECT_TRUE(contains(warnings[0], "--set '" + earlier + "': has no effect")) << earlier;

@@ -94,7 +94,8 @@ TEST_F(RunStoreTest, RefusesRunsThatDoNotMatchTheirChecksum) {
             store.put(3, "a=1\n");
         }
         change(file_, sql);
-        EXPECT_TRUE(contains(open_error(identity()), "the store is damaged: ")) << sql << "\n" << open_error(identity());
+        EXPECT_TRUE(contains(open_error(identity()), "the store is damaged: ")) << sql << "\n"
+                                                                                << open_error(identity());
         EXPECT_TRUE(contains(open_error(identity()), file_.string() + ": ")) << sql;
         EXPECT_TRUE(contains(input_error_of([&] { static_cast<void>(RunStore::open(file_)); }), "damaged")) << sql;
     }

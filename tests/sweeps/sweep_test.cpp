@@ -150,16 +150,16 @@ TEST(Sweep, NamesThePlaceOfTheValueThatCausesAnError) {
     const std::string green = "- {name: green, path: signal.green, values: [15 s, 20 s]}\n";
     EXPECT_TRUE(contains(error_of_sweep("axes:\n" + green + "- {name: p, populations: [CDG, CTG]}\n"),
                          "sweep.yaml:4:33: the sweep sweep, with green = 15 s: "));
-    EXPECT_TRUE(contains(error_of_sweep("axes:\n" + green + "- {name: car, path: vehicle, values: [electric_100kw, x]}\n"),
-                         "sweep.yaml:4:55: "));
+    EXPECT_TRUE(
+        contains(error_of_sweep("axes:\n" + green + "- {name: car, path: vehicle, values: [electric_100kw, x]}\n"),
+                 "sweep.yaml:4:55: "));
     // 7 ms is the cause: other times are no whole number of these steps, among them the values of the second axis.
     EXPECT_TRUE(contains(error_of_sweep("axes:\n- {name: step, path: step, values: [10 ms, 7 ms]}\n" + green),
-                         "sweep.yaml:3:45: "));
+                         "sweep.yaml:3:44: "));
     // Here no value fails without the other one.
-    EXPECT_TRUE(contains(
-        error_of_sweep("axes:\n- {name: step, path: step, values: [10 ms, 20 ms]}\n"
-                       "- {name: y, path: signal.yellow, values: [3 s, 3.01 s]}\n"),
-        "with step = 20 ms, y = 3.01 s: "));
+    EXPECT_TRUE(contains(error_of_sweep("axes:\n- {name: step, path: step, values: [10 ms, 20 ms]}\n"
+                                        "- {name: y, path: signal.yellow, values: [3 s, 3.01 s]}\n"),
+                         "with step = 20 ms, y = 3.01 s: "));
 }
 
 TEST(Sweep, RefusesInvalidAxes) {

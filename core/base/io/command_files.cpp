@@ -15,12 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path resolved_path(const fs::path& file) {
-    std::error_code error;
-    fs::path resolved = fs::weakly_canonical(fs::absolute(file, error), error);
-    return error ? fs::absolute(file).lexically_normal() : resolved;
-}
-
 // Returns the numbers that identify an existing file on this machine.
 std::optional<std::pair<std::uint64_t, std::uint64_t>> file_id(const fs::path& file) {
     struct stat status {};
@@ -35,6 +29,12 @@ bool is_device_or_pipe(const fs::path& file) {
 }
 
 }  // namespace
+
+fs::path resolved_path(const fs::path& file) {
+    std::error_code error;
+    fs::path resolved = fs::weakly_canonical(fs::absolute(file, error), error);
+    return error ? fs::absolute(file).lexically_normal() : resolved;
+}
 
 const CommandFiles::Entry* CommandFiles::find(const fs::path& resolved) const {
     if (const auto same = by_path_.find(resolved); same != by_path_.end()) return &entries_[same->second];

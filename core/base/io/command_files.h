@@ -11,6 +11,9 @@
 
 namespace stopline {
 
+// Returns the absolute path with symbolic links resolved. Parts of the path that do not exist are kept.
+std::filesystem::path resolved_path(const std::filesystem::path& file);
+
 // Two paths are the same file if they are equal after symbolic links are resolved, or if they lead to the same file on
 // the disk. Devices and pipes are left out, because several outputs may use them.
 class CommandFiles {

@@ -42,7 +42,7 @@ void prepare_output_file(const fs::path& file) {
     const fs::file_status status = fs::status(file, ignored);
     if (fs::is_directory(status)) fail(file, "cannot write", EISDIR);
     if (!fs::exists(status) || fs::is_regular_file(status)) {
-        const ReplacedFile trial(file);  // its destructor removes the temporary file
+        const ReplacedFile trial(file);              // its destructor removes the temporary file
     } else if (::access(file.c_str(), W_OK) != 0) {  // opening a pipe would wait for its reader
         fail(file, "cannot write", errno);
     }

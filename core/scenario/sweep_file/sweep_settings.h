@@ -14,7 +14,7 @@ struct SweepAxis {
     std::vector<std::string> values;             // as in an override PATH=VALUE; "a | b": one value for each of 2 paths
     std::vector<std::string> populations;        // names of populations, or "all" for all populations of the scenario
     std::string place;                           // position of the axis name, "file:line:column"
-    std::vector<std::string> value_places = {};       // [value] positions of the values
+    std::vector<std::string> value_places = {};  // [value] positions of the values
     std::vector<std::string> population_places = {};  // [population] positions of the names of populations
 };
 

@@ -65,7 +65,8 @@ done
 refused "FILE: the value is empty" run ''
 refused "--sumo: the value is empty" export one.yaml --sumo ''
 refused "--section: the value is empty" scorecard --section ''
-refused "--section: the value is empty" reproduce --section=''
+refused "--section: the value is empty" reproduce --section ''
+refused "--section" reproduce --section=
 refused "--population: the value is empty" strings --population ''
 refused "--shard: the value is empty" sweep one.yaml --shard ''
 refused "STORE: the value is empty" sweep merge --output merged ''

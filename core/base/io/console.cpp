@@ -1,4 +1,4 @@
-#include "common/console.h"
+#include "base/io/console.h"
 
 #include <fcntl.h>
 #include <unistd.h>
