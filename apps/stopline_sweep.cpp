@@ -22,7 +22,6 @@
 #include "common/program.h"
 #include "common/progress_bar.h"
 #include "common/results.h"
-#include "common/text_table.h"
 #include "figures/studies/sweep_figures.h"
 #include "figures/studies/turn_figures.h"
 #include "runs/tables/column_aliases.h"

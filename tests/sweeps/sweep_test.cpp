@@ -149,7 +149,7 @@ TEST(Sweep, NamesTheInvalidCombination) {
 TEST(Sweep, NamesThePlaceOfTheValueThatCausesAnError) {
     const std::string green = "- {name: green, path: signal.green, values: [15 s, 20 s]}\n";
     EXPECT_TRUE(contains(error_of_sweep("axes:\n" + green + "- {name: p, populations: [CDG, CTG]}\n"),
-                         "sweep.yaml:4:33: the sweep sweep, with green = 15 s: "));
+                         "sweep.yaml:4:32: the sweep sweep, with green = 15 s: "));
     EXPECT_TRUE(
         contains(error_of_sweep("axes:\n" + green + "- {name: car, path: vehicle, values: [electric_100kw, x]}\n"),
                  "sweep.yaml:4:55: "));
