@@ -20,8 +20,8 @@ inline constexpr const char* kExitCodesText =
     "Exit codes: 0 done, 1 a check failed, 2 bad input, too little memory, or output that cannot be written,\n"
     "130 interrupted (143 by SIGTERM, 129 by SIGHUP).\n";
 
-// Installs the signal handlers, runs `body` and returns the exit code of the program. Prints a message on standard error
-// for an exception from `body` and for a failure to write standard output.
+// Installs the signal handlers, runs `body` and returns the exit code of the program. Prints a message on standard
+// error for an exception from `body` and for a failure to write standard output.
 int run_program(const std::string& name, const std::function<ExitCode()>& body);
 
 // Returns true after SIGINT (Ctrl-C), SIGTERM, SIGHUP or SIGPIPE. Long-running code must poll this function.

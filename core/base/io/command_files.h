@@ -18,8 +18,8 @@ std::filesystem::path resolved_path(const std::filesystem::path& file);
 // the disk. Devices and pipes are left out, because several outputs may use them.
 class CommandFiles {
 public:
-    // Adds a file that the command reads. `role` describes it in messages, such as "the scenario". Throws InputError if an
-    // output added before is the same file.
+    // Adds a file that the command reads. `role` describes it in messages, such as "the scenario". Throws InputError if
+    // an output added before is the same file.
     void add_input(const std::filesystem::path& file, const std::string& role);
     // Adds a file that the command writes. `role` is often the option that names it, such as "--record". Throws
     // InputError if an input or an output added before is the same file.

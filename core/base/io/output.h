@@ -8,8 +8,8 @@
 namespace stopline {
 
 // Creates the folder and its parents, and checks that files can be created in the folder. Removes temporary files that
-// killed programs left in it. On failure it throws InputError with path and reason. Call the function before a long run,
-// so that a wrong path is reported before the run starts.
+// killed programs left in it. On failure it throws InputError with path and reason. Call the function before a long
+// run, so that a wrong path is reported before the run starts.
 void prepare_folder(const std::filesystem::path& folder);
 
 // Checks that the file can be written, and creates its folder. Leaves an existing file unchanged. On failure it throws

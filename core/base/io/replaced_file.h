@@ -37,8 +37,8 @@ private:
     int descriptor_ = -1;
 };
 
-// Returns the path of the temporary file or folder for a target, in the folder of the target: .NAME.MACHINE.PROCESS.part.
-// Several programs on several machines can write the same target at the same time.
+// Returns the path .NAME.MACHINE.PROCESS.part of the temporary file or folder for a target, in the same folder. Several
+// programs on several machines can write the same target at the same time.
 std::filesystem::path temporary_path(const std::filesystem::path& target);
 
 // Removes the temporary files and folders that killed programs of this machine left in a folder. Those of running
