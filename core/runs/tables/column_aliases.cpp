@@ -229,7 +229,8 @@ std::string with_old_names(std::string_view table, const std::string& csv) {
 std::string result_file_name(std::string_view table, std::string file, ColumnNames names) {
     const auto found =
         std::find_if(kFiles.begin(), kFiles.end(), [&](const FileAlias& alias) { return alias.table == table; });
-    return names == ColumnNames::current || found == kFiles.end() ? file : std::string(found->old_file);
+    if (names == ColumnNames::old && found != kFiles.end()) file = found->old_file;
+    return file;
 }
 
 ResultFile result_file(std::string_view table, std::string file, std::string csv, ColumnNames names) {
