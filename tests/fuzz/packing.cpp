@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#define ZLIB_CONST  // the input of zlib is constant
 #include <zlib.h>
 
 #include "base/input_error.h"
@@ -18,7 +19,7 @@ constexpr int kGzipWindow = 15 + 16;  // zlib: the largest window, with the head
 
 z_stream stream_from(std::string_view bytes) {
     z_stream stream{};
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));  // NOLINT: zlib does not write there
+    stream.next_in = reinterpret_cast<const Bytef*>(bytes.data());
     stream.avail_in = static_cast<uInt>(bytes.size());
     return stream;
 }

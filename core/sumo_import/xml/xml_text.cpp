@@ -7,6 +7,8 @@
 #include <unistd.h>
 
 #include <fmt/format.h>
+
+#define ZLIB_CONST  // the input of zlib is constant
 #include <zlib.h>
 
 #include "base/input_error.h"
