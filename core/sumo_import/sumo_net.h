@@ -26,7 +26,9 @@ namespace stopline {
 inline constexpr std::size_t kSumoLanesMax = 100;             // of an edge
 inline constexpr std::size_t kSumoConnectionsMax = 100;       // that begin on one lane
 inline constexpr std::size_t kSumoLinksMax = 1000;            // of a junction; SUMO allows 256
+inline constexpr std::size_t kSumoPhasesMax = 1000;           // of a signal programme
 inline constexpr double kSumoConnectionLengthMax_m = 2000.0;  // of the path through a junction
+inline constexpr std::size_t kSumoPointsMax = 1000;           // of the path through a junction
 
 // Warnings about content of SUMO's files that the import ignores or changes.
 class SumoWarnings {

@@ -145,7 +145,7 @@ private:
         return routes_.size() - 1;
     }
 
-    // Routes and their probabilities. Each element holds the index of a route in routes_, and its probability.
+    // Routes and their shares. Each element holds the index of a route in routes_, and the sum of the shares up to it.
     using Shares = std::vector<std::pair<std::size_t, double>>;
 
     void add_named_route(pugi::xml_node node, Shares shares) {
@@ -160,8 +160,7 @@ private:
         double sum = 0.0;
         const auto add = [&](pugi::xml_node from, std::size_t route, double share) {
             if (share < 0.0) xml_->refuse(from, "a probability must be at least 0");
-            shares.emplace_back(route, share);
-            sum += share;
+            shares.emplace_back(route, sum += share);
         };
         for (const pugi::xml_node child : node.children("route")) {
             const double share = xml_->number_or(child, "probability", 1.0);
@@ -277,9 +276,8 @@ private:
         Trip trip = vehicle.trip;
         trip.depart_s = depart_s;
         trip.length_m = static_cast<float>(type.length_m);
-        std::vector<double> shares;
-        for (const auto& [route, share] : vehicle.routes) shares.push_back(share);
-        const std::size_t route = vehicle.routes[pick_by_share(shares, random_number(1))].first;
+        const auto upper_of = [](const auto& share) { return share.second; };
+        const std::size_t route = pick_by_share(vehicle.routes, random_number(1), upper_of).first;
         if (!routes_[route].open_to_cars) {
             traffic_.warnings.note(routes_[route].where,
                                    "the route has edges closed to cars: its vehicles are ignored");

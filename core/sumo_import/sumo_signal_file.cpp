@@ -54,6 +54,9 @@ SumoPhase phase_of(const SumoXml& xml, pugi::xml_node node, SumoWarnings& warnin
 
 void read_phases(const SumoXml& xml, pugi::xml_node node, SumoSignal& signal, SumoWarnings& warnings) {
     for (const pugi::xml_node phase : node.children("phase")) {
+        if (signal.phases.size() == kSumoPhasesMax) {
+            xml.refuse(phase, fmt::format("tlLogic '{}' has more than {} phases", signal.id, kSumoPhasesMax));
+        }
         signal.phases.push_back(phase_of(xml, phase, warnings));
         if (signal.phases.back().state.size() != signal.phases[0].state.size()) {
             xml.refuse(phase,

@@ -195,5 +195,27 @@ TEST_F(XmlFiles, LongChainsOfShortEdgesTakeLinearTime) {
     });
 }
 
+TEST_F(XmlFiles, SignalsWithManyPhasesAreRefused) {
+    std::string phases;
+    for (int k = 0; k < 1001; ++k) phases += "<phase duration=\"3\" state=\"GGGG\"/>\n";
+    const std::string text = replaced(testing::signal_net(testing::two_phases()), "<phase ", phases + "<phase ");
+    EXPECT_TRUE(contains(refusal_of(text), ":1033: tlLogic 'J' has more than 1000 phases"));
+}
+
+// Rings of many phases took quadratic memory, because each phase of one ring forms a pair with each of the other ring.
+TEST_F(XmlFiles, RingsOfManyPhasesRunAsFixedTimeSignals) {
+    const std::string ring(3000, '1');
+    const std::string parameters = "<param key=\"ring1\" value=\"" + ring + "\"/><param key=\"ring2\" value=\"2\"/>";
+    std::string text = testing::signal_net(testing::two_phases());
+    text = replaced(replaced(text, "type=\"static\"", "type=\"NEMA\""), "<phase ", parameters + "<phase ");
+    expect_quick([&] {
+        const SumoNetwork network = network_of(text);
+        const std::vector<std::string> lines = network.net.warnings.lines();
+        ASSERT_FALSE(lines.empty());
+        EXPECT_TRUE(contains(lines[0], "the rings of the signal 'J' are not supported: a ring has more than 9 phases"));
+        EXPECT_EQ(network.net.signals[0].controller, nullptr);
+    });
+}
+
 }  // namespace
 }  // namespace stopline
