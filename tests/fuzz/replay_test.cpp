@@ -36,7 +36,7 @@ INSTANTIATE_TEST_SUITE_P(AllTargets, FuzzSeeds, ::testing::ValuesIn([] {
                              for (const Target& one : targets()) names.emplace_back(one.name);
                              return names;
                          }()),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& seed_folder) { return seed_folder.param; });
 
 }  // namespace
 }  // namespace stopline::fuzz

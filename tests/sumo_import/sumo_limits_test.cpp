@@ -103,7 +103,6 @@ TEST_F(XmlFiles, NestingAndAttributesAreLimited) {
 }
 
 TEST_F(XmlFiles, ControlCharactersAreRefused) {
-    const auto with_id = [](const std::string& id) { return replaced(crossing_net(), "\"J_0\"", "\"" + id + "\""); };
     const std::string net = crossing_net();
     EXPECT_TRUE(contains(refusal_of(replaced(net, "id=\"w_in\"", "id=\"w\x1b[31m\"")), "control character 0x1B"));
     for (const char* const code : {"&#27;", "&#x1b;", "&#0;", "&#xD800;", "&#x110000;"}) {
