@@ -2,8 +2,8 @@
 //
 // A short gzip file can unpack to a very long text, and a text of many small elements needs far more memory than its
 // length. Therefore the memory that the parsed text would need is limited in proportion to the size of the file. Files
-// that SUMO writes stay far below the limit: gzip makes them 10 to 30 times as small, and parsing takes two to four
-// times the length of their text.
+// that SUMO writes stay far below the limit: gzip makes them 7 to 30 times as small, and parsing takes two to six times
+// the length of their text.
 #pragma once
 
 #include <cstddef>
