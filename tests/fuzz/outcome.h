@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "base/input_error.h"
+#include "base/io/printable.h"
 
 namespace stopline::fuzz {
 
@@ -21,13 +22,10 @@ inline void require(bool holds, const char* what) {
     if (!holds) fail(std::string("this does not hold: ") + what);
 }
 
-// Fails if the message is empty or contains bytes that would control a terminal.
+// Fails if the message is empty or contains characters that would control a terminal.
 inline void require_printable(std::string_view message) {
     require(!message.empty(), "a message is not empty");
-    for (const char c : message) {
-        const auto byte = static_cast<unsigned char>(c);
-        if ((byte < 0x20 && c != '\n') || byte == 0x7F) fail("control character in: " + std::string(message));
-    }
+    if (has_control_characters(message)) fail("control character in: " + std::string(message));
 }
 
 // Runs the action. Other exceptions than InputError end the process.
