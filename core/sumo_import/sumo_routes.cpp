@@ -125,12 +125,15 @@ private:
         TripRoute route;
         route.where = xml_->where(node);
         const std::string edges = xml_->text(node, "edges");
+        std::string_view last_id;
         for (const std::string_view id : sumo_words(edges)) {
             const int edge = edge_of(node, "edges", id);
             route.open_to_cars = route.open_to_cars && router_.allows_cars(edge);
             if (route.edges.empty()) route.starts_on_merged_edge = network_.net.edges[at(edge)].id != id;
             // Consecutive edges of the file can be the same edge after the import has merged short edges.
-            if (route.edges.empty() || route.edges.back() != edge) route.edges.push_back(edge);
+            const bool is_same_edge = !route.edges.empty() && route.edges.back() == edge;
+            if (!is_same_edge || id == last_id) route.edges.push_back(edge);
+            last_id = id;
         }
         if (route.edges.empty()) xml_->refuse(node, "'edges' is empty; at least one edge is needed");
         for (std::size_t k = 1; k < route.edges.size(); ++k) {
