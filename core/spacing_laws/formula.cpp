@@ -211,13 +211,9 @@ private:
         const int exponent = digit - '0';
         const Dimension dimension{exponent * base.dimension.metre, exponent * base.dimension.second};
         const std::size_t begin = base.begin;
-        if (std::max(std::abs(dimension.metre), std::abs(dimension.second)) > kMaxUnitExponent) {
-            fail(begin, fmt::format("the power has the unit {}; exponents of units are at most {}",
-                                    unit_text(dimension), kMaxUnitExponent));
-        }
-        std::vector<Node> operands;
-        operands.push_back(std::move(base));
-        Node node = made(Kind::power, std::move(operands), dimension, begin);
+        if (std::max(std::abs(dimension.metre), std::abs(dimension.second)) > kMaxUnitExponent)
+            fail(begin, fmt::format("{} has an exponent above {}", unit_text(dimension), kMaxUnitExponent));
+        Node node = made(Kind::power, {std::move(base)}, dimension, begin);
         node.value = exponent;
         return node;
     }
