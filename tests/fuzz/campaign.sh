@@ -65,7 +65,7 @@ fuzz() {
     local begin=$SECONDS
     stop=$((SECONDS + seconds))
     while left=$((stop - SECONDS)) && ((left > 0)); do
-        nice -n 19 "$build/fuzz/fuzz_$target" -max_total_time="$left" -max_len="$max_len" "${dictionary[@]}" \
+        nice -n "$priority" "$build/fuzz/fuzz_$target" -max_total_time="$left" -max_len="$max_len" "${dictionary[@]}" \
             "${build_limits[@]}" -print_final_stats=1 -artifact_prefix="$findings/$target-" -detect_leaks=1 \
             "$corpus" "$build/fuzz/seeds/$target" >"$log" 2>&1 || tail -40 "$log" >>"$findings/$target.log"
         runs=$((runs + $(value "$log" number_of_executed_units)))
@@ -97,6 +97,7 @@ work="$(mktemp -d)"
 trap 'rm -rf "$table" "$work"' EXIT
 
 if [[ "${1:-}" == --short ]]; then
+    priority=0
     [[ $# == 2 && -d "$2/fuzz" ]] || usage
     for program in "$2"/fuzz/fuzz_*; do
         target="${program##*/fuzz_}"
@@ -114,6 +115,7 @@ if [[ "${1:-}" == --short ]]; then
 fi
 
 [[ $# == 1 && "$1" =~ ^[0-9]+$ ]] || usage
+priority=19
 builds=(build/fuzz-fast build/fuzz)
 for build in "${builds[@]}"; do
     cmake --preset "$(basename "$build")" --log-level=WARNING
