@@ -1,4 +1,5 @@
 // Targets that read short texts: quantities, formulas and overrides.
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <string_view>
