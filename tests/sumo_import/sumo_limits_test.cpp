@@ -216,5 +216,15 @@ TEST_F(XmlFiles, RingsOfManyPhasesRunAsFixedTimeSignals) {
     });
 }
 
+// The lights of two rings are computed for each tick of their cycle.
+TEST_F(XmlFiles, LongClearanceTimesOfSignalsAreRefused) {
+    const std::string text = testing::signal_net(testing::two_phases());
+    for (const char* const name : {"yellow", "red", "vehext"}) {
+        const std::string attribute = std::string(name) + "=\"1e9\"";
+        const std::string message = refusal_of(replaced(text, "<phase ", "<phase " + attribute + " "));
+        EXPECT_TRUE(contains(message, attribute + " must be from 0 to 300 s")) << message;
+    }
+}
+
 }  // namespace
 }  // namespace stopline
