@@ -3,7 +3,8 @@
 # Stops at the first failure.
 #   tests/run.sh           builds the release version and runs its tests and the checks of the sources
 #   tests/run.sh --all     adds the slow tests and the fast tests under the address, undefined-behaviour and thread
-#                          sanitizers, and compares the release version with an unoptimised one
+#                          sanitizers, runs the fuzz targets for some seconds each, and compares the release version
+#                          with an unoptimised one
 # Three environment variables hold regular expressions for ctest and limit what runs under the sanitizers:
 # STOPLINE_ASAN_LABELS (default: unit|threads|cli), STOPLINE_TSAN_LABELS (default: threads) and
 # STOPLINE_SANITIZER_EXCLUDE (default: names that begin with Slow). Scripts with the label slow never run under a
@@ -71,11 +72,14 @@ step "Release: all tests and checks of the sources"
 STOPLINE_DEBUG_BIN="$PWD/build/debug/bin" ctest --preset release -j "$jobs" --no-tests=error
 
 step "Address and undefined-behaviour sanitizers: building"
-build asan-ubsan ON all
+build asan-ubsan ON all stopline_fuzz_programs
 step "Address and undefined-behaviour sanitizers: fast tests"
 export ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1
 export UBSAN_OPTIONS=print_stacktrace=1
 run_fast_tests asan-ubsan "${STOPLINE_ASAN_LABELS:-unit|threads|cli}"
+
+step "Fuzz targets: some seconds each"
+bash tests/fuzz/campaign.sh --short build/asan-ubsan
 
 step "Thread sanitizer: building"
 build tsan ON stopline_programs stopline_threaded_tests

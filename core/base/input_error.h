@@ -8,7 +8,8 @@ namespace stopline {
 
 class InputError : public std::runtime_error {
 public:
-    explicit InputError(const std::string& message) : std::runtime_error(message) {}
+    // Messages often quote the input. They are therefore made printable (base/io/printable.h).
+    explicit InputError(const std::string& message);
 };
 
 }  // namespace stopline

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <memory>
+#include <string>
+#include <unordered_map>
 #include <utility>
 
 #include "base/input_error.h"
@@ -103,22 +105,21 @@ void merge_library_list(const Field& field, const std::string& library, SourceNo
         return;
     }
     replace_old_names(field, *known, field.name, report);
-    // Marks the entries that come from the scenario. Such an entry is never replaced. A name that the scenario gives
-    // twice thus stays in the list twice, and a later check reports it.
-    std::vector<bool> own_entry(known->items.size(), false);
+    // The entries of the library that the scenario has not replaced, by name. A name that the scenario gives twice thus
+    // stays in the list twice, and a later check reports it.
+    std::unordered_map<std::string, std::size_t> library_entries;
+    for (std::size_t i = 0; i < known->items.size(); ++i) {
+        if (const SourceNode* const name = name_of(known->items[i])) library_entries.emplace(name->text, i);
+    }
     for (SourceNode& own : list.items) {
         const SourceNode* const name = name_of(own);
-        std::size_t i = 0;
-        while (i < known->items.size() && (own_entry[i] || name == nullptr || name_of(known->items[i]) == nullptr ||
-                                           name_of(known->items[i])->text != name->text)) {
-            ++i;
+        const auto replaced = name == nullptr ? library_entries.end() : library_entries.find(name->text);
+        if (replaced == library_entries.end()) {
+            known->items.push_back(std::move(own));
+        } else {
+            known->items[replaced->second] = std::move(own);
+            library_entries.erase(replaced);
         }
-        if (i == known->items.size()) {
-            known->items.emplace_back();
-            own_entry.push_back(true);
-        }
-        known->items[i] = std::move(own);
-        own_entry[i] = true;
     }
     list.items = std::move(known->items);
 }

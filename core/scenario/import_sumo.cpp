@@ -11,7 +11,7 @@
 #include "sumo_import/sumo_graph.h"
 #include "sumo_import/sumo_net.h"
 #include "sumo_import/sumo_routes.h"
-#include "sumo_import/sumo_xml.h"
+#include "sumo_import/xml/xml_text.h"
 
 namespace stopline {
 

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -53,6 +54,7 @@ using Dimension = FormulaDimension;
 
 constexpr int kMaxDepth = 50;  // of nested parentheses and functions
 constexpr std::size_t kMaxLength = 1000;
+constexpr int kMaxUnitExponent = 100;  // of a power; such as 4 in m4
 constexpr Dimension kLength{1, 0};
 
 std::string power_text(const char* base, int exponent) {
@@ -209,9 +211,9 @@ private:
         const int exponent = digit - '0';
         const Dimension dimension{exponent * base.dimension.metre, exponent * base.dimension.second};
         const std::size_t begin = base.begin;
-        std::vector<Node> operands;
-        operands.push_back(std::move(base));
-        Node node = made(Kind::power, std::move(operands), dimension, begin);
+        if (std::max(std::abs(dimension.metre), std::abs(dimension.second)) > kMaxUnitExponent)
+            fail(begin, fmt::format("{} has an exponent above {}", unit_text(dimension), kMaxUnitExponent));
+        Node node = made(Kind::power, {std::move(base)}, dimension, begin);
         node.value = exponent;
         return node;
     }
@@ -285,16 +287,18 @@ private:
         skip_spaces();
         std::string_view name = word();
         int exponent = 1;
+        std::size_t caret_and_digit = 0;  // characters of an exponent such as "^2"
         if (name.size() > 1 && name.back() >= '2' && name.back() <= '9') {
             exponent = name.back() - '0';
             name.remove_suffix(1);
         } else if (at_ + 1 < text_.size() && text_[at_] == '^' && text_[at_ + 1] >= '2' && text_[at_ + 1] <= '9') {
             exponent = text_[at_ + 1] - '0';
+            caret_and_digit = 2;
         }
         const auto* const base =
             std::find_if(kBaseUnits.begin(), kBaseUnits.end(), [&](const BaseUnit& one) { return one.name == name; });
         if (base == kBaseUnits.end()) return false;
-        if (exponent != 1 && at_ < text_.size() && text_[at_] == '^') at_ += 2;
+        at_ += caret_and_digit;
         for (int k = 0; k < exponent; ++k) factor = sign > 0 ? factor * base->factor : factor / base->factor;
         dimension.metre += sign * exponent * base->dimension.metre;
         dimension.second += sign * exponent * base->dimension.second;

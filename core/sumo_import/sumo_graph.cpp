@@ -150,6 +150,12 @@ private:
                 end.point,
                 {end.point.x_m + kMinConnection_m * end.cosine, end.point.y_m + kMinConnection_m * end.sine}};
         }
+        if (const double length = length_m(connection.shape); length > kSumoConnectionLengthMax_m) {
+            throw InputError(
+                fmt::format("{}: the path from edge '{}' to edge '{}' is {:.0f} m long; at most {:.0f} m "
+                            "are allowed in a junction",
+                            c.where, edge(c.from).id, edge(c.to).id, length, kSumoConnectionLengthMax_m));
+        }
     }
 
     // Gives each edge to which a given edge leads a Turn value of its own: straight, right or left according to SUMO's

@@ -12,6 +12,7 @@
 
 #include "base/containers/index.h"
 #include "base/input_error.h"
+#include "base/io/printable.h"
 #include "sumo_import/sumo_signal_file.h"
 #include "sumo_import/sumo_xml.h"
 
@@ -114,8 +115,13 @@ private:
     }
 
     void read_lane(pugi::xml_node node, SumoEdge& edge) {
+        constexpr double kMinLength_m = 0.01;
         constexpr double kMaxLength_m = 1e6;
+        constexpr double kMinSpeed_mps = 0.01;
         constexpr double kMaxSpeed_mps = 200.0;
+        if (edge.lanes.size() >= kSumoLanesMax) {
+            xml_.refuse(node, fmt::format("edge '{}' has more than {} lanes", edge.id, kSumoLanesMax));
+        }
         const auto index = xml_.whole_number(node, "index");
         if (index != static_cast<int>(edge.lanes.size()) && !edge.internal) {
             xml_.refuse(node, fmt::format("lanes of edge '{}' must be numbered 0, 1, 2, ... in order", edge.id));
@@ -129,14 +135,14 @@ private:
         SumoLane lane;
         lane.length_m = xml_.number(node, "length");
         lane.speed_mps = xml_.number(node, "speed");
-        if (!(lane.length_m > 0.0) || lane.length_m > kMaxLength_m) {
-            xml_.refuse(node, fmt::format("length=\"{}\" must be more than 0 and at most {} m",
-                                          node.attribute("length").value(), kMaxLength_m));
+        if (!(lane.length_m >= kMinLength_m) || lane.length_m > kMaxLength_m) {
+            xml_.refuse(node, fmt::format("length=\"{}\" must be from {} to {} m", node.attribute("length").value(),
+                                          kMinLength_m, kMaxLength_m));
         }
         lane.allows_cars = sumo_allows_cars(node.attribute("allow").value(), node.attribute("disallow").value());
-        if (lane.allows_cars && (!(lane.speed_mps > 0.0) || lane.speed_mps > kMaxSpeed_mps)) {
-            xml_.refuse(node, fmt::format("speed=\"{}\" must be more than 0 and at most {} m/s",
-                                          node.attribute("speed").value(), kMaxSpeed_mps));
+        if (lane.allows_cars && (!(lane.speed_mps >= kMinSpeed_mps) || lane.speed_mps > kMaxSpeed_mps)) {
+            xml_.refuse(node, fmt::format("speed=\"{}\" must be from {} to {} m/s", node.attribute("speed").value(),
+                                          kMinSpeed_mps, kMaxSpeed_mps));
         }
         const std::string shape = xml_.text(node, "shape");
         std::optional<Polyline> points = sumo_shape(shape);
@@ -175,6 +181,10 @@ private:
         }
         std::size_t expected = 0;
         for (const pugi::xml_node request : node.children("request")) {
+            if (expected == kSumoLinksMax) {
+                xml_.refuse(request,
+                            fmt::format("junction '{}' has more than {} requests", junction.id, kSumoLinksMax));
+            }
             const auto index = at(xml_.whole_number(request, "index"));
             if (index != expected++) xml_.refuse(request, "requests must be numbered 0, 1, 2, ... in order");
             junction.response.push_back(bits_of(xml_.text(request, "response")));
@@ -273,13 +283,30 @@ private:
         c.keep_clear = keep_clear != "0" && keep_clear != "false";
         const std::string pass = node.attribute("pass").value();
         c.pass = pass == "1" || pass == "true";
+        count_connection(node, c);
         net_.connections.push_back(std::move(c));
+    }
+
+    // Throws InputError if the file has this connection twice, or too many connections from one lane.
+    void count_connection(pugi::xml_node node, const SumoConnection& c) {
+        std::vector<std::pair<int, int>>& targets = targets_[{c.from, c.from_lane}];
+        const std::pair target{c.to, c.to_lane};
+        if (std::find(targets.begin(), targets.end(), target) != targets.end()) {
+            xml_.refuse(node, fmt::format("there are two connections from lane {} of edge '{}' to lane {} of edge '{}'",
+                                          c.from_lane, net_.edges[at(c.from)].id, c.to_lane, net_.edges[at(c.to)].id));
+        }
+        if (targets.size() >= kSumoConnectionsMax) {
+            xml_.refuse(node, fmt::format("more than {} connections begin on lane {} of edge '{}'", kSumoConnectionsMax,
+                                          c.from_lane, net_.edges[at(c.from)].id));
+        }
+        targets.push_back(target);
     }
 
     std::filesystem::path file_;
     SumoXml xml_;
     SumoNet net_;
     std::unordered_set<std::string> junction_ids_;
+    std::map<std::pair<int, int>, std::vector<std::pair<int, int>>> targets_;  // [edge, lane] lanes that it leads to
 };
 
 }  // namespace
@@ -328,17 +355,18 @@ void SumoNet::check_lights() const {
 
 void SumoWarnings::note(const std::string& where, const std::string& message) {
     constexpr int kListedPlaces = 3;
-    auto known = std::find_if(kinds_.begin(), kinds_.end(), [&](const Kind& kind) { return kind.message == message; });
-    if (known == kinds_.end()) known = kinds_.insert(kinds_.end(), {message, {}, 0});
-    if (++known->count <= kListedPlaces) known->places.push_back(where);
+    const auto [known, is_new] = kind_by_message_.try_emplace(message, kinds_.size());
+    if (is_new) kinds_.push_back({message, {}, 0});
+    Kind& kind = kinds_[known->second];
+    if (++kind.count <= kListedPlaces) kind.places.push_back(where);
 }
 
 std::vector<std::string> SumoWarnings::lines() const {
     std::vector<std::string> lines;
     for (const Kind& kind : kinds_) {
-        for (const std::string& place : kind.places) lines.push_back(place + ": " + kind.message);
+        for (const std::string& place : kind.places) lines.push_back(printable_text(place + ": " + kind.message));
         const int unlisted = kind.count - static_cast<int>(kind.places.size());
-        if (unlisted > 0) lines.push_back(fmt::format("{} more times: {}", unlisted, kind.message));
+        if (unlisted > 0) lines.push_back(printable_text(fmt::format("{} more times: {}", unlisted, kind.message)));
     }
     return lines;
 }

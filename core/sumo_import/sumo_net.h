@@ -21,6 +21,15 @@
 
 namespace stopline {
 
+// Limits of a network. Some steps of the import compare each lane of an edge, and each connection of a junction, with
+// all others.
+inline constexpr std::size_t kSumoLanesMax = 100;             // of an edge
+inline constexpr std::size_t kSumoConnectionsMax = 100;       // that begin on one lane
+inline constexpr std::size_t kSumoLinksMax = 1000;            // of a junction; SUMO allows 256
+inline constexpr std::size_t kSumoPhasesMax = 1000;           // of a signal programme
+inline constexpr double kSumoConnectionLengthMax_m = 2000.0;  // of the path through a junction
+inline constexpr std::size_t kSumoPointsMax = 1000;           // of the path through a junction
+
 // Warnings about content of SUMO's files that the import ignores or changes.
 class SumoWarnings {
 public:
@@ -37,6 +46,7 @@ private:
         int count = 0;
     };
     std::vector<Kind> kinds_;
+    std::unordered_map<std::string, std::size_t> kind_by_message_;
 };
 
 struct SumoLane {

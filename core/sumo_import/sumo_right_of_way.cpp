@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/containers/index.h"
+#include "base/input_error.h"
 #include "network/conflicts.h"
 
 namespace stopline {
@@ -38,6 +39,10 @@ public:
         for (std::size_t k = 0; k < connections_of.size(); ++k) {
             const SumoJunction& junction = network_.net.junctions[k];
             const std::vector<int>& connections = connections_of[k];
+            if (connections.size() > kSumoLinksMax) {
+                throw InputError(fmt::format("{}: junction '{}' has {} connections; at most {} are allowed",
+                                             junction.where, junction.id, connections.size(), kSumoLinksMax));
+            }
             if (junction.response.empty()) warn_of_missing_requests(junction, connections);
             for (std::size_t first = 0; first < connections.size(); ++first) {
                 for (std::size_t second = first + 1; second < connections.size(); ++second) {

@@ -125,12 +125,15 @@ private:
         TripRoute route;
         route.where = xml_->where(node);
         const std::string edges = xml_->text(node, "edges");
+        std::string_view last_id;
         for (const std::string_view id : sumo_words(edges)) {
             const int edge = edge_of(node, "edges", id);
             route.open_to_cars = route.open_to_cars && router_.allows_cars(edge);
             if (route.edges.empty()) route.starts_on_merged_edge = network_.net.edges[at(edge)].id != id;
             // Consecutive edges of the file can be the same edge after the import has merged short edges.
-            if (route.edges.empty() || route.edges.back() != edge) route.edges.push_back(edge);
+            const bool is_same_edge = !route.edges.empty() && route.edges.back() == edge;
+            if (!is_same_edge || id == last_id) route.edges.push_back(edge);
+            last_id = id;
         }
         if (route.edges.empty()) xml_->refuse(node, "'edges' is empty; at least one edge is needed");
         for (std::size_t k = 1; k < route.edges.size(); ++k) {
@@ -145,7 +148,7 @@ private:
         return routes_.size() - 1;
     }
 
-    // Routes and their probabilities. Each element holds the index of a route in routes_, and its probability.
+    // Routes and their shares. Each element holds the index of a route in routes_, and the sum of the shares up to it.
     using Shares = std::vector<std::pair<std::size_t, double>>;
 
     void add_named_route(pugi::xml_node node, Shares shares) {
@@ -160,8 +163,7 @@ private:
         double sum = 0.0;
         const auto add = [&](pugi::xml_node from, std::size_t route, double share) {
             if (share < 0.0) xml_->refuse(from, "a probability must be at least 0");
-            shares.emplace_back(route, share);
-            sum += share;
+            shares.emplace_back(route, sum += share);
         };
         for (const pugi::xml_node child : node.children("route")) {
             const double share = xml_->number_or(child, "probability", 1.0);
@@ -277,9 +279,8 @@ private:
         Trip trip = vehicle.trip;
         trip.depart_s = depart_s;
         trip.length_m = static_cast<float>(type.length_m);
-        std::vector<double> shares;
-        for (const auto& [route, share] : vehicle.routes) shares.push_back(share);
-        const std::size_t route = vehicle.routes[pick_by_share(shares, random_number(1))].first;
+        const auto upper_of = [](const auto& share) { return share.second; };
+        const std::size_t route = pick_by_share(vehicle.routes, random_number(1), upper_of).first;
         if (!routes_[route].open_to_cars) {
             traffic_.warnings.note(routes_[route].where,
                                    "the route has edges closed to cars: its vehicles are ignored");

@@ -115,16 +115,18 @@ private:
 
     // Records that the lane `first` now continues along the lanes `parts`.
     void add_merged_lanes(const LaneId& first, const std::vector<LaneId>& parts) {
-        const auto lanes_in = [&](const LaneId& id) {
+        std::vector<std::pair<std::string, double>>& merged =
+            net_.edges[at(first.first)].lanes[at(first.second)].merged_lanes;
+        const auto append = [&](const LaneId& id) {
             const SumoLane& lane = lane_of(id);
-            if (!lane.merged_lanes.empty()) return lane.merged_lanes;
-            return std::vector{std::pair{fmt::format("{}_{}", net_.edges[at(id.first)].id, id.second), lane.length_m}};
+            if (lane.merged_lanes.empty()) {
+                merged.emplace_back(fmt::format("{}_{}", net_.edges[at(id.first)].id, id.second), lane.length_m);
+            } else {
+                merged.insert(merged.end(), lane.merged_lanes.begin(), lane.merged_lanes.end());
+            }
         };
-        std::vector<std::pair<std::string, double>> lanes = lanes_in(first);
-        for (const LaneId& part : parts) {
-            for (std::pair<std::string, double>& lane : lanes_in(part)) lanes.push_back(std::move(lane));
-        }
-        net_.edges[at(first.first)].lanes[at(first.second)].merged_lanes = std::move(lanes);
+        if (merged.empty()) append(first);
+        for (const LaneId& part : parts) append(part);
     }
 
     // Records that, after the merge, `lane` ends where lane number `index` of the edge `merged` ends. If `replace` is

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,8 @@ namespace stopline {
 namespace {
 
 constexpr double kMaxDuration_s = 1e6;
+constexpr double kMaxGreen_s = 1e10;       // of minDur and maxDur
+constexpr double kMaxClearance_s = 300.0;  // of yellow, red and vehext, which become times of the two rings
 
 void read_next(const SumoXml& xml, pugi::xml_node node, SumoPhase& phase) {
     for (const std::string_view word : sumo_words(node.attribute("next").value())) {
@@ -45,8 +48,10 @@ SumoPhase phase_of(const SumoXml& xml, pugi::xml_node node, SumoWarnings& warnin
     phase.red_s = xml.number_or(node, "red", 2.0);
     for (const char* const name : {"minDur", "maxDur", "vehext", "yellow", "red"}) {
         const double value_s = xml.number_or(node, name, 0.0);
-        if (value_s >= 0.0 && value_s < 1e10) continue;
-        xml.refuse(node, fmt::format("{}=\"{}\" must be at least 0", name, node.attribute(name).value()));
+        const double limit_s = std::string_view(name).ends_with("Dur") ? kMaxGreen_s : kMaxClearance_s;
+        if (value_s >= 0.0 && value_s <= limit_s) continue;
+        xml.refuse(node,
+                   fmt::format("{}=\"{}\" must be from 0 to {:g} s", name, node.attribute(name).value(), limit_s));
     }
     read_next(xml, node, phase);
     return phase;
@@ -54,6 +59,9 @@ SumoPhase phase_of(const SumoXml& xml, pugi::xml_node node, SumoWarnings& warnin
 
 void read_phases(const SumoXml& xml, pugi::xml_node node, SumoSignal& signal, SumoWarnings& warnings) {
     for (const pugi::xml_node phase : node.children("phase")) {
+        if (signal.phases.size() == kSumoPhasesMax) {
+            xml.refuse(phase, fmt::format("tlLogic '{}' has more than {} phases", signal.id, kSumoPhasesMax));
+        }
         signal.phases.push_back(phase_of(xml, phase, warnings));
         if (signal.phases.back().state.size() != signal.phases[0].state.size()) {
             xml.refuse(phase,

@@ -101,15 +101,6 @@ void warn_about_ignored(const SumoXml& xml, pugi::xml_node type, bool uses_drivi
 
 }  // namespace
 
-std::size_t pick_by_share(const std::vector<double>& shares, double random_number) {
-    double sum = 0.0;
-    for (const double share : shares) sum += share;
-    std::size_t k = 0;
-    double upper = shares[0];
-    while (random_number * sum >= upper && k + 1 < shares.size()) upper += shares[++k];
-    return k;
-}
-
 int index_of(const SumoXml& xml, pugi::xml_node node, const SumoType& type, std::vector<SumoType>& types) {
     constexpr std::size_t kMaxTypes = 100;
     const auto found =
@@ -180,13 +171,14 @@ void SumoTypes::read(const SumoXml& xml, pugi::xml_node node, SumoWarnings& warn
     const std::string id = xml.text(node, "id");
     if (node.name() == std::string_view("vType")) return add(xml, node, id, {{read_type(xml, node, warnings), 1.0}});
     std::vector<Share> shares;
-    const auto checked = [&](pugi::xml_node at, double share) {
+    double sum = 0.0;
+    const auto add_share = [&](pugi::xml_node at, std::size_t type, double share) {
         if (share < 0.0) xml.refuse(at, "a probability must be at least 0");
-        return share;
+        shares.push_back({type, sum += share});
     };
     for (const pugi::xml_node child : node.children("vType")) {
         const std::size_t type = read_type(xml, child, warnings);
-        shares.push_back({type, checked(child, xml.number_or(child, "probability", 1.0))});
+        add_share(child, type, xml.number_or(child, "probability", 1.0));
         if (child.attribute("id")) add(xml, child, child.attribute("id").value(), {{type, 1.0}});
     }
     const std::string members = node.attribute("vTypes").value();
@@ -200,11 +192,9 @@ void SumoTypes::read(const SumoXml& xml, pugi::xml_node node, SumoWarnings& warn
         }
         const auto share = k < probabilities.size() ? sumo_number(probabilities[k]) : 1.0;
         if (!share) xml.refuse(node, fmt::format("vTypeDistribution '{}': a probability must be a finite number", id));
-        shares.push_back({known->second[0].type, checked(node, *share)});
+        add_share(node, known->second[0].type, *share);
         ++k;
     }
-    double sum = 0.0;
-    for (const Share& share : shares) sum += share.share;
     if (!(sum > 0.0))
         xml.refuse(node, fmt::format("vTypeDistribution '{}' needs a type with a probability above 0", id));
     add(xml, node, id, std::move(shares));
@@ -214,9 +204,7 @@ const SumoType& SumoTypes::pick(const SumoXml& xml, pugi::xml_node node, const s
                                 double random_number) const {
     const auto found = types_by_name_.find(name);
     if (found == types_by_name_.end()) xml.refuse(node, fmt::format("there is no vType '{}'", name));
-    std::vector<double> shares;
-    for (const Share& share : found->second) shares.push_back(share.share);
-    return types_[found->second[pick_by_share(shares, random_number)].type];
+    return types_[pick_by_share(found->second, random_number, [](const Share& share) { return share.upper; }).type];
 }
 
 }  // namespace stopline

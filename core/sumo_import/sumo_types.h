@@ -2,6 +2,7 @@
 // driving behaviour of a type if the scenario asks for it (NetworkSettings::vehicles).
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -49,7 +50,7 @@ public:
 private:
     struct Share {
         std::size_t type;
-        double share;
+        double upper;  // sum of the shares up to this one
     };
     std::size_t read_type(const SumoXml& xml, pugi::xml_node node, SumoWarnings& warnings);
     void add(const SumoXml& xml, pugi::xml_node node, const std::string& name, std::vector<Share> shares);
@@ -63,7 +64,14 @@ private:
 // with the place of `node` if there are too many types: the simulation computes each type in a pass of its own.
 int index_of(const SumoXml& xml, pugi::xml_node node, const SumoType& type, std::vector<SumoType>& types);
 
-// Returns the index of the share that a random number in [0, 1) selects. The shares need not sum to 1.
-std::size_t pick_by_share(const std::vector<double>& shares, double random_number);
+// Returns the element that a random number in [0, 1) selects from a list of shares. `upper_of` returns the sum of the
+// shares up to an element. The shares need not sum to 1.
+template <class Share, class UpperOf>
+const Share& pick_by_share(const std::vector<Share>& shares, double random_number, const UpperOf& upper_of) {
+    const double place = random_number * upper_of(shares.back());
+    const auto found = std::partition_point(shares.begin(), shares.end(),
+                                            [&](const Share& share) { return place >= upper_of(share); });
+    return found == shares.end() ? shares.back() : *found;
+}
 
 }  // namespace stopline

@@ -7,59 +7,35 @@
 #include <cstdint>
 #include <cstring>
 
-#include <unistd.h>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <zlib.h>
 
 #include "base/input_error.h"
+#include "sumo_import/xml/xml_text.h"
 
 namespace stopline {
 
 namespace {
 
-constexpr std::size_t kMaxBytes = std::size_t{1} << 31;
-
-// Throws InputError with the number of the line at which unpacking of the gzip data failed.
-[[noreturn]] void throw_damaged(const std::string& name, const std::string& unpacked) {
-    throw InputError(fmt::format("{}:{}: the gzip data are damaged or end too early here", name,
-                                 std::count(unpacked.begin(), unpacked.end(), '\n') + 1));
-}
-
-// Returns the text of a gzipped file, unpacked, or of a plain file. zlib reads plain files unchanged.
-std::string read_text(const std::filesystem::path& file, const std::string& name) {
-    if (const std::string problem = sumo_file_problem(file); !problem.empty()) throw InputError(name + ": " + problem);
-    struct Close {
-        void operator()(gzFile_s* opened) const { gzclose(opened); }
-    };
-    const std::unique_ptr<gzFile_s, Close> in(gzopen(file.c_str(), "rb"));
-    if (!in) throw InputError(name + ": the file cannot be opened");
-    constexpr unsigned kBuffer = 1U << 20;
-    gzbuffer(in.get(), kBuffer);
-    std::string text;
-    text.reserve(static_cast<std::size_t>(std::min<std::uintmax_t>(std::filesystem::file_size(file), kMaxBytes)) + 1);
-    std::vector<char> chunk(kBuffer);
-    for (;;) {
-        const int count = gzread(in.get(), chunk.data(), kBuffer);
-        if (count < 0) throw_damaged(name, text);
-        if (count == 0) break;
-        text.append(chunk.data(), static_cast<std::size_t>(count));
-        if (text.size() >= kMaxBytes) throw InputError(name + ": the text of the file is larger than 2 GiB");
-    }
-    int state = Z_OK;
-    gzerror(in.get(), &state);
-    if (state != Z_OK && state != Z_STREAM_END) throw_damaged(name, text);
-    return text;
-}
-
-std::uint64_t hash_of(const std::string& text) {
+// The 64-bit FNV-1a hash of a text, and the position of the first control character that XML does not allow.
+struct TextScan {
     std::uint64_t hash = 0xcbf29ce484222325U;
-    for (const char c : text) {
-        hash ^= static_cast<unsigned char>(c);
-        hash *= 0x100000001b3U;
+    std::size_t control_character = std::string::npos;
+};
+
+bool is_forbidden(char c) { return static_cast<unsigned char>(c) < ' ' && c != '\n' && c != '\r' && c != '\t'; }
+
+TextScan scan(std::string_view text) {
+    TextScan result;
+    bool is_found = false;
+    for (std::size_t k = 0; k < text.size(); ++k) {
+        result.hash ^= static_cast<unsigned char>(text[k]);
+        result.hash *= 0x100000001b3U;
+        if (!is_forbidden(text[k]) || is_found) continue;
+        result.control_character = k;
+        is_found = true;
     }
-    return hash;
+    return result;
 }
 
 // The byte range of a comment, a CDATA section or a processing instruction in the text of a file.
@@ -82,7 +58,8 @@ Section next_section(std::string_view text, std::size_t from) {
     return {text.size(), text.size()};
 }
 
-// Returns true if `text`, which follows a '&', begins with one of the five entities of XML or with a character number.
+// Returns true if `text`, which follows a '&', begins with one of the five entities of XML or with the number of a
+// character that XML allows.
 bool is_entity(std::string_view text) {
     constexpr std::array<std::string_view, 5> kNamed{"amp;", "lt;", "gt;", "quot;", "apos;"};
     if (std::any_of(kNamed.begin(), kNamed.end(), [&](std::string_view name) { return text.starts_with(name); })) {
@@ -91,8 +68,13 @@ bool is_entity(std::string_view text) {
     if (!text.starts_with('#')) return false;
     const bool hexadecimal = text.substr(1).starts_with('x');
     text.remove_prefix(hexadecimal ? 2 : 1);
-    const std::size_t end = text.find_first_not_of(hexadecimal ? "0123456789abcdefABCDEF" : "0123456789");
-    return end != 0 && end != std::string_view::npos && text[end] == ';';
+    constexpr unsigned kLastCharacter = 0x10FFFF;
+    unsigned number = 0;
+    const char* const begin = text.data();
+    const auto [end, error] = std::from_chars(begin, begin + text.size(), number, hexadecimal ? 16 : 10);
+    if (error != std::errc() || end == begin + text.size() || *end != ';') return false;
+    const bool is_surrogate = number >= 0xD800 && number <= 0xDFFF;
+    return number <= kLastCharacter && !is_surrogate && (number >= ' ' || !is_forbidden(static_cast<char>(number)));
 }
 
 // Returns the position of the first '&' that begins an unknown entity. pugixml does not report unknown entities.
@@ -134,15 +116,6 @@ std::string shortened(std::string_view text) {
 }
 
 }  // namespace
-
-std::string sumo_file_problem(const std::filesystem::path& file) {
-    std::error_code error;
-    const std::filesystem::file_status status = std::filesystem::status(file, error);
-    if (status.type() == std::filesystem::file_type::not_found) return "there is no such file";
-    if (std::filesystem::is_directory(status)) return "this is a folder; a file is needed";
-    if (!std::filesystem::is_regular_file(status)) return "this is a device or a pipe; a regular file is needed";
-    return ::access(file.c_str(), R_OK) == 0 ? "" : "the file cannot be opened; check its permissions";
-}
 
 std::optional<double> sumo_number(std::string_view text) {
     double value = 0.0;
@@ -187,8 +160,7 @@ std::optional<SumoVersion> sumo_version(std::string_view text) {
 
 SumoXml::SumoXml(const std::filesystem::path& file, std::initializer_list<std::string_view> root_names)
     : name_(file.lexically_normal().generic_string()),
-      text_(read_text(file, name_)),
-      hash_(hash_of(text_)),
+      text_(read_xml_text(file, name_)),
       version_(sumo_version(text_)) {
     for (const char* at = text_.data(); at != nullptr;) {
         at =
@@ -196,6 +168,12 @@ SumoXml::SumoXml(const std::filesystem::path& file, std::initializer_list<std::s
         if (at == nullptr) break;
         line_ends_.push_back(static_cast<std::uint32_t>(at - text_.data()));
         ++at;
+    }
+    const TextScan scanned = scan(text_);
+    hash_ = scanned.hash;
+    if (const std::size_t position = scanned.control_character; position != std::string::npos) {
+        throw InputError(fmt::format("{}:{}: the file is not XML text: it has the control character 0x{:02X}", name_,
+                                     line_of(static_cast<std::ptrdiff_t>(position)), int{text_[position]}));
     }
     parse();
     const auto is_root = [&](std::string_view name) { return name == root_.name(); };
@@ -210,8 +188,8 @@ void SumoXml::parse() {
     if (const std::optional<std::size_t> position = unknown_entity(text_)) {
         const std::string_view rest = std::string_view(text_).substr(*position);
         entity_problem = fmt::format(
-            "{}:{}: element '{}': '{}' is not an XML entity; known are &amp; &lt; &gt; &quot; &apos; and character "
-            "numbers such as &#65;",
+            "{}:{}: element '{}': '{}' is not an XML entity; known are &amp; &lt; &gt; &quot; &apos; and "
+            "the numbers of characters, such as &#65;, except control characters",
             name_, line_of(static_cast<std::ptrdiff_t>(*position)), shortened(element_before(text_, *position)),
             shortened(rest.substr(0, rest.find_first_of(" \t\r\n\"';<>", 1))));
     }
@@ -237,26 +215,48 @@ void SumoXml::parse() {
     }
     if (!root_) throw InputError(name_ + ":1: the file has no XML element");
     if (!entity_problem.empty()) throw InputError(entity_problem);
-    refuse_duplicate_attributes();
+    check_elements();
 }
 
-// Throws InputError if an element has two attributes with the same name. pugixml accepts such an element.
-void SumoXml::refuse_duplicate_attributes() const {
+// Throws InputError if an element is nested too deeply or has an invalid list of attributes.
+void SumoXml::check_elements() const {
     std::vector<std::string_view> names;
+    int depth = 1;
     for (pugi::xml_node node = root_; node;) {
-        names.clear();
-        for (const pugi::xml_attribute attribute : node.attributes()) names.emplace_back(attribute.name());
-        std::sort(names.begin(), names.end());
-        if (const auto duplicate = std::adjacent_find(names.begin(), names.end()); duplicate != names.end()) {
-            refuse(node, fmt::format("element '{}': attribute '{}' is given twice; once is allowed", node.name(),
-                                     shortened(*duplicate)));
-        }
+        check_attributes(node, names);
         pugi::xml_node next = node.first_child();
+        if (next && ++depth > kXmlDepthMax) {
+            refuse(next, fmt::format("the elements are nested more than {} levels deep", kXmlDepthMax));
+        }
         while (!next && node != root_) {
             next = node.next_sibling();
-            if (!next) node = node.parent();
+            if (next) break;
+            node = node.parent();
+            --depth;
         }
         node = next;
+    }
+}
+
+// Throws InputError if an element has too many attributes, two with the same name, or an id with a line break or a tab.
+// pugixml accepts such an element. `names` is memory that the calls share.
+void SumoXml::check_attributes(pugi::xml_node node, std::vector<std::string_view>& names) const {
+    names.clear();
+    for (const pugi::xml_attribute attribute : node.attributes()) {
+        names.emplace_back(attribute.name());
+        const bool is_id = names.back() == "id";
+        if (is_id && std::string_view(attribute.value()).find_first_of("\n\r\t") != std::string_view::npos) {
+            refuse(node, fmt::format("element '{}': the id has a line break or a tab", node.name()));
+        }
+    }
+    if (names.size() > kXmlAttributesMax) {
+        refuse(node, fmt::format("element '{}' has {} attributes; at most {} are allowed", shortened(node.name()),
+                                 names.size(), kXmlAttributesMax));
+    }
+    std::sort(names.begin(), names.end());
+    if (const auto duplicate = std::adjacent_find(names.begin(), names.end()); duplicate != names.end()) {
+        refuse(node, fmt::format("element '{}': attribute '{}' is given twice; once is allowed", node.name(),
+                                 shortened(*duplicate)));
     }
 }
 

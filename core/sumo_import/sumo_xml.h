@@ -1,8 +1,9 @@
 // Strict reader for SUMO's XML files, plain or gzipped. For every problem it throws an InputError whose message begins
 // with file and line.
 //
-// The reader rejects document type declarations, files above 2 GiB when unpacked, XML that is not well-formed, and
-// numbers that are not finite. It also rejects duplicate attributes and unknown entities, which pugixml accepts.
+// The reader rejects document type declarations, XML that is not well-formed, control characters, and numbers that are
+// not finite. It also rejects duplicate attributes and unknown entities, which pugixml accepts. Limits on size and
+// memory (xml/xml_text.h), nesting and attributes protect the program from hostile files.
 #pragma once
 
 #include <compare>
@@ -18,6 +19,9 @@
 #include <pugixml.hpp>
 
 namespace stopline {
+
+inline constexpr int kXmlDepthMax = 100;
+inline constexpr std::size_t kXmlAttributesMax = 1000;  // of one element
 
 // A version of SUMO, such as 1.28. The third number is left out, because no third number changed the format.
 struct SumoVersion {
@@ -57,7 +61,8 @@ public:
 
 private:
     void parse();
-    void refuse_duplicate_attributes() const;
+    void check_elements() const;
+    void check_attributes(pugi::xml_node node, std::vector<std::string_view>& names) const;
     std::size_t line_of(std::ptrdiff_t offset) const;
 
     std::string name_;
@@ -69,8 +74,6 @@ private:
     pugi::xml_node root_;
 };
 
-// Returns the reason why the file cannot be read, or "" if it is a readable regular file.
-std::string sumo_file_problem(const std::filesystem::path& file);
 // Returns the version in the comments before the root element of a file with this text, as SumoXml::version() does.
 std::optional<SumoVersion> sumo_version(std::string_view text);
 // Converts the text to a number. Returns nothing unless the whole text is one finite decimal number.

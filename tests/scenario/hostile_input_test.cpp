@@ -1,6 +1,7 @@
 // Tests of hostile input. Any file is loaded or refused with an InputError, without a crash or an endless loop.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <random>
 
 #include "scenario/scenario_text.h"
@@ -171,6 +172,16 @@ TEST(HostileFile, LongWordsAreCutInMessages) {
     EXPECT_LT(error_of("title: x\n", {word}).size(), 1000u);
     EXPECT_LT(error_of("title: x\n", {word + "=1"}).size(), 1000u);
     EXPECT_LT(error_of("title: x\n", {"populations[" + word + "].name=1"}).size(), 1000u);
+}
+
+// Each entry of the list was compared with all others.
+TEST(HostileFile, LongListsOfPoliciesTakeLinearTime) {
+    std::string text = "policies:\n";
+    for (int k = 0; k < 190'000; ++k) text += "- P\n";
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_NE(input_error_of([&] { parse_scenario(text, "test.yaml"); }), "");
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    EXPECT_LT(taken.count(), 15.0);
 }
 
 }  // namespace

@@ -122,6 +122,32 @@ TEST_F(HostileYaml, RefusesDeepNesting) {
     EXPECT_NE(refusal(keys), "");
 }
 
+TEST_F(HostileYaml, RefusesManyOpenBrackets) {
+    expect_refused(std::string(1001, '['), "test.yaml:1:1001: nested more than 32 levels deep: 1001 brackets are open");
+    expect_refused("a: 1\n" + std::string(4'000'000, '{'), "test.yaml:2:1001: nested more than 32 levels deep");
+    EXPECT_EQ(parse("a: 'x " + std::string(900, '[') + "'\n").find("a")->text.size(), 902U);
+}
+
+TEST_F(HostileYaml, RefusesLongTextsThatAliasesRepeat) {
+    std::string text = "a: &a " + std::string(1u << 20u, 'x') + "\nb: [*a";
+    for (int i = 0; i < 1000; ++i) text += ", *a";
+    expect_refused(text + "]\n", "the values are longer than 16 MB (aliases written out)");
+}
+
+TEST_F(HostileYaml, RefusesNestedAnchorsThatKeepManyCopies) {
+    std::string text = "a: ";
+    for (int i = 0; i < 20; ++i) text += "&a" + std::to_string(i) + " [";
+    for (int i = 0; i < 50'000; ++i) text += "1,";
+    expect_refused(text + std::string(20, ']') + "\n", "the anchors contain too many values");
+}
+
+TEST_F(HostileYaml, RefusesControlCharactersFromEscapeSequences) {
+    EXPECT_TRUE(contains(refusal("a: 1\nb: \"x\\e[31m\"\n"), "test.yaml:2:4: the value has a control character"));
+    EXPECT_TRUE(contains(refusal("\"\\x07\": 1\n"), "test.yaml:1:1: the value has a control character"));
+    EXPECT_TRUE(contains(refusal("a: \"\\x9B\"\n"), "control character"));
+    EXPECT_EQ(parse("a: \"one\\ntwo\"\n").find("a")->text, "one\ntwo");
+}
+
 TEST_F(HostileYaml, RefusesTooManyValues) {
     std::string text = "a: [";
     for (int i = 0; i < 300'000; ++i) text += "1,";

@@ -42,6 +42,17 @@ TEST(GapFormula, ReadsUnits) {
     EXPECT_DOUBLE_EQ(value_of("500 ms * 36 km/h", 0.0), 5.0);
     EXPECT_DOUBLE_EQ(value_of("2 m/s2 * 3 s^2", 0.0), 6.0);
     EXPECT_DOUBLE_EQ(value_of("2 m / s0 * 1 m", 0.0), 2.0 / 3.0);  // s0 is no unit
+    EXPECT_DOUBLE_EQ(value_of("sqrt(2 m2^2) / 1 m", 0.0), 2.0);    // the power of a number with a unit
+}
+
+TEST(GapFormula, RefusesUnitsWithAnIncompleteOrHugeExponent) {
+    GapFormula::Error error;
+    GapFormula::parse("4 h4^", error);
+    EXPECT_EQ(error.message, "an exponent is a whole number from 0 to 9");
+    std::string text = "v";
+    for (int k = 0; k < 40; ++k) text = "(" + text + ")^9";
+    GapFormula::parse(text, error);
+    EXPECT_EQ(error.message, "m729/s729 has an exponent above 100");
 }
 
 TEST(GapFormula, ComparesInIf) {

@@ -251,6 +251,8 @@ INSTANTIATE_TEST_SUITE_P(
         InvalidBody{R"(<trip id="a" from="w_in" to="e_out"/>)", "element 'trip' has no attribute 'depart'"},
         InvalidBody{R"(<vehicle id="a" depart="0"><route edges="w_in s_in"/></vehicle>)",
                     "edge 'w_in' does not lead to edge 's_in'"},
+        InvalidBody{R"(<vehicle id="a" depart="0"><route edges="w_in w_in"/></vehicle>)",
+                    "edge 'w_in' does not lead to edge 'w_in'"},
         InvalidBody{R"(<vehicle id="a" depart="0"><route edges=" "/></vehicle>)", "'edges' is empty"},
         InvalidBody{R"(<vehicle id="a" depart="0" route="r"/>)", "there is no route 'r'"},
         InvalidBody{R"(<vehicle id="a" depart="0" type="t"><route edges="w_in"/></vehicle>)", "there is no vType 't'"},

@@ -38,6 +38,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -52,7 +53,11 @@ inline constexpr std::string_view kHeadTag = "HEAD";
 inline constexpr std::string_view kFramesTag = "FRMS";
 inline constexpr std::string_view kEndTag = "ENDS";
 inline constexpr int kFramesInSection = 128;
-inline constexpr std::uint32_t kMaxSectionBytes = 1U << 28U;
+inline constexpr std::uint32_t kMaxSectionBytes = 1U << 28U;  // stored or unpacked
+// Limits of the unpacked bytes of a section, so that a small file cannot need much memory. Each section lists all
+// vehicles anew, so real sections unpack to less than 20 times their size.
+inline constexpr std::size_t kAlwaysUnpackedBytes = std::size_t{4} << 20U;
+inline constexpr std::size_t kMaxSectionRatio = 100;
 inline constexpr std::uint16_t kWideCode = 255;  // byte that marks a difference stored with 16 bits
 
 inline constexpr double kSpeedUnit_mps = 0.01;

@@ -48,25 +48,75 @@ Json lane_json(const Lane& lane, bool imported) {
     return json;
 }
 
+[[noreturn]] void fail_range(const char* name) {
+    throw InputError(std::string("the header has a value out of range: ") + name);
+}
+
+// Returns a whole number of the header. Throws InputError if it is not from `min` to `max`.
+std::int64_t whole_number(const nlohmann::json& object, const char* name, std::int64_t min, std::int64_t max) {
+    const nlohmann::json& number = object.at(name);
+    if (!number.is_number_integer()) fail_range(name);
+    const auto value = number.get<std::int64_t>();
+    if (value < min || value > max) fail_range(name);
+    return value;
+}
+
+// Returns a number of the header. Throws InputError if it is not from `min` to `max`.
+double number(const nlohmann::json& object, const char* name, double min, double max) {
+    const double value = object.at(name).get<double>();
+    if (!(value >= min && value <= max)) fail_range(name);
+    return value;
+}
+
+FrameGrid grid_of(const nlohmann::json& json) {
+    constexpr double kMinStep_s = 1e-4;
+    constexpr double kMaxStep_s = 100.0;
+    constexpr double kMaxTime_s = 1e9;
+    constexpr double kMaxUnit_m = 1e3;
+    FrameGrid grid;
+    grid.step_s = number(json, "step_s", kMinStep_s, kMaxStep_s);
+    grid.frame_ticks = std::llround(number(json, "frame_s", 0.0, kMaxTime_s) / grid.step_s);
+    if (grid.frame_ticks == 0) fail_range("frame_s");
+    grid.first_tick = std::llround(number(json, "first_frame_s", 0.0, kMaxTime_s) / grid.step_s);
+    grid.position_unit_m = number(json, "position_unit_m", 1e-6, kMaxUnit_m);
+    grid.advance_q12 = static_cast<std::uint32_t>(whole_number(json, "advance_q12", 0, kMaxAdvance));
+    return grid;
+}
+
 RecordedRun run_of(const nlohmann::json& json) {
+    constexpr std::int64_t kMaxSignalGroups = 10'000'000;
+    constexpr double kMaxLength_m = 1e7;
+    if (!json.at("seed").is_number_unsigned()) fail_range("seed");
     RecordedRun run;
     run.version = json.at("version");
     run.origin = {json.at("command"), json.at("scenario"),   json.at("title"),       json.at("scenario_hash"),
                   json.at("seed"),    json.at("population"), json.at("lane_width_m")};
-    run.grid.step_s = json.at("step_s");
-    run.grid.frame_ticks = std::llround(json.at("frame_s").get<double>() / run.grid.step_s);
-    run.grid.first_tick = std::llround(json.at("first_frame_s").get<double>() / run.grid.step_s);
-    run.grid.position_unit_m = json.at("position_unit_m");
-    run.grid.advance_q12 = json.at("advance_q12");
+    run.grid = grid_of(json);
     run.policies = json.at("policies");
     run.causes = json.at("causes");
     run.links = json.value("links", std::vector<std::string>{});
-    run.signal_groups = json.at("signal_groups");
+    run.signal_groups = static_cast<int>(whole_number(json, "signal_groups", 0, kMaxSignalGroups));
     for (const nlohmann::json& lane : json.at("lanes")) {
+        const bool has_line = lane.contains("stop_line_m");
+        const bool has_group = lane.contains("signal_group");
         run.lanes.push_back(
-            {lane.at("name"), lane.at("length_m"), lane.value("signal_group", -1), lane.value("stop_line_m", 0.0)});
+            {lane.at("name"), number(lane, "length_m", 0.0, kMaxLength_m),
+             has_group ? static_cast<int>(whole_number(lane, "signal_group", 0, run.signal_groups - 1)) : -1,
+             has_line ? number(lane, "stop_line_m", -kMaxLength_m, kMaxLength_m) : 0.0});
     }
+    if (run.lanes.empty()) fail_range("lanes");
+    if (run.policies.empty()) fail_range("policies");
     return run;
+}
+
+// Parses the header. Refuses deep nesting, which needs much more memory than the text.
+nlohmann::json parse(std::string_view text) {
+    constexpr int kMaxDepth = 10;
+    return nlohmann::json::parse(text,
+                                 [](int depth, nlohmann::json::parse_event_t /*event*/, nlohmann::json& /*part*/) {
+                                     if (depth > kMaxDepth) throw InputError("the header is nested too deeply");
+                                     return true;
+                                 });
 }
 
 }  // namespace
@@ -116,12 +166,7 @@ std::string recording_header(const Model& model, const RunOrigin& origin, const 
 
 RecordedRun parse_recording_header(std::string_view json) {
     try {
-        RecordedRun run = run_of(nlohmann::json::parse(json));
-        const bool is_valid = run.grid.step_s > 0.0 && run.grid.frame_ticks > 0 && run.grid.position_unit_m > 0.0 &&
-                              run.grid.advance_q12 <= kMaxAdvance && !run.lanes.empty() && !run.policies.empty() &&
-                              run.signal_groups >= 0;
-        if (!is_valid) throw InputError("the header has values out of range");
-        return run;
+        return run_of(parse(json));
     } catch (const nlohmann::json::exception& error) {
         throw InputError(std::string("the header is not valid: ") + error.what());
     }

@@ -1,7 +1,9 @@
 #include "record/recording/recording_reader.h"
 
 #include <cerrno>
+#include <limits>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -17,6 +19,8 @@ RecordingReader::RecordingReader(const std::filesystem::path& file) : path_(file
     if (std::filesystem::is_directory(file, ignored)) fail(std::generic_category().message(EISDIR));
     stream_.open(file, std::ios::binary);
     if (!stream_) fail(fmt::format("the file cannot be read: {}", std::generic_category().message(errno)));
+    remaining_ = std::filesystem::file_size(file, ignored);
+    if (ignored) remaining_ = std::numeric_limits<std::uintmax_t>::max();
     try {
         check_begin();
         std::string tag;
@@ -33,9 +37,8 @@ void RecordingReader::fail(const std::string& what) const {
 }
 
 void RecordingReader::check_begin() {
-    std::string magic(kRecordingMagic.size(), '\0');
-    stream_.read(magic.data(), static_cast<std::streamsize>(magic.size()));
-    if (magic != kRecordingMagic) throw InputError("the file was not written by stopline-run --record");
+    if (remaining_ < kRecordingMagic.size() || read(kRecordingMagic.size()) != kRecordingMagic)
+        throw InputError("the file was not written by stopline-run --record");
     const std::string begin = read(4);
     ByteReader reader(begin);
     const auto version = reader.number<std::uint16_t>();
@@ -48,6 +51,8 @@ void RecordingReader::check_begin() {
 }
 
 std::string RecordingReader::read(std::size_t size) {
+    if (size > remaining_) throw InputError("the file ends too early");
+    remaining_ -= size;
     std::string bytes(size, '\0');
     stream_.read(bytes.data(), static_cast<std::streamsize>(size));
     if (static_cast<std::size_t>(stream_.gcount()) != size) throw InputError("the file ends too early");
@@ -63,6 +68,11 @@ std::string RecordingReader::read_section(std::string& tag) {
     if ((tag != kHeadTag && tag != kFramesTag && tag != kEndTag) || stored > kMaxSectionBytes ||
         unpacked_size > kMaxSectionBytes) {
         throw InputError("a section header is damaged");
+    }
+    if (unpacked_size > kAlwaysUnpackedBytes + kMaxSectionRatio * std::size_t{stored}) {
+        throw InputError(
+            fmt::format("a section unpacks from {} to {} bytes; at most {} plus {} times its size is allowed", stored,
+                        unpacked_size, kAlwaysUnpackedBytes, kMaxSectionRatio));
     }
     return decompress(read(stored), unpacked_size);
 }
@@ -82,7 +92,8 @@ bool RecordingReader::next(RecordedSection& section) {
             throw InputError("the sections are out of order");
         }
         frames_ += section.frames;
-        section.bytes = bytes.substr(bytes.size() - reader.remaining());
+        bytes.erase(0, bytes.size() - reader.remaining());
+        section.bytes = std::move(bytes);
         return true;
     } catch (const InputError& error) {
         fail(fmt::format("the recording is damaged after {} frames: {}", frames_, error.what()));

@@ -40,6 +40,7 @@ private:
 
     std::filesystem::path path_;
     std::ifstream stream_;
+    std::uintmax_t remaining_ = 0;  // bytes that have not been read
     std::string header_;
     RecordedRun run_;
     std::int64_t frames_ = 0;

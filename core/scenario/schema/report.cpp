@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "base/input_error.h"
+#include "base/io/printable.h"
 
 namespace stopline {
 namespace {
@@ -24,7 +25,7 @@ std::vector<std::string> Report::sorted_lines(std::vector<Entry> entries) {
                std::tuple(label(b.place), b.place.line, b.place.column);
     });
     std::vector<std::string> lines;
-    for (const Entry& entry : entries) lines.push_back(to_string(entry.place) + ": " + entry.message);
+    for (const Entry& entry : entries) lines.push_back(printable_text(to_string(entry.place) + ": " + entry.message));
     return lines;
 }
 

@@ -15,6 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/io/printable.h"
+
 namespace stopline {
 namespace {
 
@@ -40,6 +42,9 @@ public:
     void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                   const std::string& value) override {
         refuse_tag(tag, mark);
+        // An escape sequence such as "\e" in a quoted text gives a control character.
+        if (has_control_characters(value)) fail(at(mark), "the value has a control character");
+        count_text(value.size(), mark);
         SourceNode node = make(SourceNode::Kind::scalar, mark);
         node.text = value;
         put(std::move(node), anchor);
@@ -49,6 +54,7 @@ public:
         const auto found = anchors_.find(anchor);
         if (found == anchors_.end()) fail(at(mark), "this alias lies inside its own anchor: it would never end");
         count(found->second.nodes, mark);
+        count_text(found->second.text_bytes, mark);
         SourceNode copy = found->second.tree;
         if (open_.size() + found->second.depth > kYamlDepthMax) fail_depth(mark);
         deepen(found->second.depth);
@@ -72,6 +78,7 @@ private:
         SourceNode node;
         YAML::anchor_t anchor = 0;
         std::size_t nodes_before = 0;
+        std::size_t text_bytes_before = 0;
         std::size_t depth = 0;  // number of nesting levels from this container down to its deepest content so far
         std::unordered_set<std::string> keys;
         bool has_key = false;  // true: the last key of the map has no value yet
@@ -79,6 +86,7 @@ private:
     struct Anchored {
         SourceNode tree;
         std::size_t nodes = 0;
+        std::size_t text_bytes = 0;
         std::size_t depth = 0;
     };
 
@@ -100,6 +108,21 @@ private:
         }
     }
 
+    void count_text(std::size_t bytes, const YAML::Mark& mark) {
+        text_bytes_ += bytes;
+        if (text_bytes_ > kYamlTextMax) fail(at(mark), "the values are longer than 16 MB (aliases written out)");
+    }
+
+    // Keeps a copy of an anchored node for its aliases.
+    void keep(YAML::anchor_t anchor, Anchored node) {
+        kept_nodes_ += node.nodes;
+        kept_bytes_ += node.text_bytes;
+        if (kept_nodes_ > kYamlNodesMax || kept_bytes_ > kYamlTextMax) {
+            fail(node.tree.place, "the anchors contain too many values");
+        }
+        anchors_[anchor] = std::move(node);
+    }
+
     SourceNode make(SourceNode::Kind kind, const YAML::Mark& mark) {
         count(1, mark);
         SourceNode node;
@@ -112,7 +135,7 @@ private:
         refuse_tag(tag, mark);
         if (open_.size() >= kYamlDepthMax) fail_depth(mark);
         const std::size_t before = nodes_;
-        open_.push_back(Open{make(kind, mark), anchor, before, 1, {}, false});
+        open_.push_back(Open{make(kind, mark), anchor, before, text_bytes_, 1, {}, false});
     }
 
     void close() {
@@ -120,7 +143,8 @@ private:
         open_.pop_back();
         deepen(closed.depth);
         if (closed.anchor != 0) {
-            anchors_[closed.anchor] = Anchored{closed.node, nodes_ - closed.nodes_before, closed.depth};
+            keep(closed.anchor, Anchored{closed.node, nodes_ - closed.nodes_before,
+                                         text_bytes_ - closed.text_bytes_before, closed.depth});
         }
         put(std::move(closed.node), 0);
     }
@@ -132,7 +156,7 @@ private:
 
     // Adds a finished node to the innermost open container as a key, a value or a list item.
     void put(SourceNode node, YAML::anchor_t anchor) {
-        if (anchor != 0) anchors_[anchor] = Anchored{node, 1, 0};
+        if (anchor != 0) keep(anchor, Anchored{node, 1, node.text.size(), 0});
         if (open_.empty()) {
             root_ = std::move(node);
             return;
@@ -164,27 +188,11 @@ private:
     std::vector<Open> open_;
     std::map<YAML::anchor_t, Anchored> anchors_;
     std::size_t nodes_ = 0;
+    std::size_t text_bytes_ = 0;
+    std::size_t kept_nodes_ = 0;  // in anchors_
+    std::size_t kept_bytes_ = 0;  // of text in anchors_
     int documents_ = 0;
 };
-
-// Returns the length of the UTF-8 sequence at `i`, in bytes. Returns 0 for invalid bytes, overlong forms and
-// surrogates.
-std::size_t utf8_length(std::string_view text, std::size_t i) {
-    const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u; };
-    const unsigned first = byte(i);
-    if (first < 0x80) return 1;
-    const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
-    if (first < 0xC2 || first > 0xF4) return 0;
-    for (std::size_t k = 1; k < length; ++k) {
-        if ((byte(i + k) & 0xC0u) != 0x80u) return 0;
-    }
-    const unsigned second = byte(i + 1);
-    if (first == 0xE0 && second < 0xA0) return 0;
-    if (first == 0xED && second > 0x9F) return 0;
-    if (first == 0xF0 && second < 0x90) return 0;
-    if (first == 0xF4 && second > 0x8F) return 0;
-    return length;
-}
 
 void require_text(std::string_view text, const std::shared_ptr<const Source>& source) {
     Place place{source, 1, 1};
@@ -206,6 +214,26 @@ void require_text(std::string_view text, const std::shared_ptr<const Source>& so
     }
 }
 
+// Counts open brackets before the parser runs, because yaml-cpp reads ahead to the end of a list or map in brackets and
+// needs much memory for each open one. Brackets in quotes and comments count, too. So the limit is far above the depth.
+void refuse_many_open_brackets(std::string_view text, const std::shared_ptr<const Source>& source) {
+    Place place{source, 1, 0};
+    std::size_t open = 0;
+    for (const char c : text) {
+        ++place.column;
+        if (c == '\n') {
+            ++place.line;
+            place.column = 0;
+        }
+        if (c == '[' || c == '{') ++open;
+        if ((c == ']' || c == '}') && open > 0) --open;
+        if (open > kYamlOpenBracketsMax) {
+            fail(place, "nested more than " + std::to_string(kYamlDepthMax) + " levels deep: " + std::to_string(open) +
+                            " brackets are open");
+        }
+    }
+}
+
 std::string size_text(std::uintmax_t bytes) {
     std::ostringstream text;
     text.precision(1);
@@ -221,6 +249,7 @@ SourceNode parse_yaml(std::string_view text, const std::shared_ptr<const Source>
         fail(start, "has " + size_text(text.size()) + "; at most " + size_text(kYamlBytesMax) + " are read");
     }
     require_text(text, source);
+    refuse_many_open_brackets(text, source);
     TreeBuilder builder(source);
     try {
         std::istringstream stream{std::string(text)};

@@ -1,6 +1,7 @@
 // Reads YAML text into a tree of nodes. Limits on size, nesting and number of nodes protect memory, stack and run time.
 // Each alias counts as a full copy of its anchor, so a "billion laughs" file is refused. The reader also refuses
-// duplicate keys, several documents in a file, YAML tags, keys that are lists or maps, and text that is not UTF-8.
+// duplicate keys, several documents in a file, YAML tags, keys that are lists or maps, control characters, and text
+// that is not UTF-8.
 //
 // The reader uses the event interface of yaml-cpp instead of YAML::Node. It can thus check the limits while it reads,
 // and store line and column in every node. It copies the node of an alias, so that the tree has no cycles.
@@ -20,7 +21,9 @@ namespace stopline {
 
 inline constexpr std::uintmax_t kYamlBytesMax = 4u << 20u;
 inline constexpr std::size_t kYamlDepthMax = 32;
+inline constexpr std::size_t kYamlOpenBracketsMax = 1000;
 inline constexpr std::size_t kYamlNodesMax = 200'000;
+inline constexpr std::size_t kYamlTextMax = 16u << 20u;  // bytes of all values, with aliases written out
 
 // An error in a YAML text. what() returns "place: message".
 class YamlError : public InputError {

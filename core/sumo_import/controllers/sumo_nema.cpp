@@ -16,6 +16,7 @@ namespace stopline {
 
 namespace {
 
+constexpr std::size_t kMaxRingPhases = 9;         // the digits from 1 to 9 name the phases
 constexpr double kLongestNominalGreen_s = 600.0;  // without maxDur there is no maximum green
 
 // Returns the phase numbers in the value of a parameter. SUMO reads each digit as a number. 0 stands for no phase.
@@ -129,8 +130,16 @@ void set_nema_controller(SumoSignal& signal, SumoWarnings& warnings) {
     std::vector<int> last_phases = numbers_of(signal, "coordinatePhases");
     for (const int number : numbers_of(signal, "barrier2Phases")) last_phases.push_back(number);
     last_phases.insert(last_phases.end(), barriers.begin(), barriers.end());
-    add_ring(signal, 1, numbers_of(signal, "ring1"), last_phases, *controller);
-    add_ring(signal, 2, numbers_of(signal, "ring2"), last_phases, *controller);
+    const std::vector<int> first_ring = numbers_of(signal, "ring1");
+    const std::vector<int> second_ring = numbers_of(signal, "ring2");
+    if (std::max(first_ring.size(), second_ring.size()) > kMaxRingPhases) {
+        warnings.note(signal.where, fmt::format("the rings of the signal '{}' are not supported: a ring has more than "
+                                                "{} phases",
+                                                signal.id, kMaxRingPhases));
+        return;
+    }
+    add_ring(signal, 1, first_ring, last_phases, *controller);
+    add_ring(signal, 2, second_ring, last_phases, *controller);
     SignalSettings checked = controller->settings;
     for (PhaseSettings& phase : checked.phases) phase.protected_movements = {"any"};
     for (const SignalProblem& problem : ring_problems(checked, 0)) {
