@@ -194,8 +194,12 @@ class ScenarioDraw:
 
     def intersection(self):
         layout, lanes = self.layout()
-        return {"network": {"kind": "intersection", "intersection": layout}, "signal": self.signal(lanes),
-                "demand": self.junction_demand(lanes), "measure": {"warmup_cycles": 0}}  # fmt: skip
+        fields = {"network": {"kind": "intersection", "intersection": layout}, "signal": self.signal(lanes),
+                  "demand": self.junction_demand(lanes), "measure": {"warmup_cycles": 0}}  # fmt: skip
+        if self.chance(50):
+            fields["duration"] = "0 s"  # the run ends after the measured cycles
+            fields["measure"]["cycles"] = self.number(1, 4)
+        return fields
 
     def grid(self):
         layout, lanes = self.layout()
