@@ -145,8 +145,8 @@ bool reference_covers(const Scenario& scenario, const Model& model) {
            std::all_of(components.begin(), components.end(), has_covered_driver) &&
            scenario.signal.programmes.empty() && scenario.demand.approaches.empty() &&
            !model.demand.has_arrival_times && scenario.rules.teleport_cycles == 0.0 &&
-           scenario.rules.pass_blocker_greens == 0.0 && scenario.rules.clearing == "off" &&
-           !model.v2v_plan.is_active && scenario.network.vehicles == "from_scenario";
+           scenario.rules.pass_blocker_greens == 0.0 && scenario.rules.clearing == "off" && !model.v2v_plan.is_active &&
+           scenario.network.vehicles == "from_scenario";
 }
 
 // Compares the first part of the run of the first population.
@@ -188,7 +188,8 @@ void check_scenario(const Scenario& scenario, const std::set<std::string>& words
         if (hash_at(model, 1, part) != hash_at(model, 2, part))
             results.fail("threads", outcomes[k].population + ": another state hash on two threads");
     }
-    if (words.count("reference") > 0) compare_with_reference(scenario, scenario.tick_s() * static_cast<double>(end_tick[0]), results);
+    if (words.count("reference") > 0)
+        compare_with_reference(scenario, scenario.tick_s() * static_cast<double>(end_tick[0]), results);
 }
 
 }  // namespace

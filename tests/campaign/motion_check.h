@@ -28,8 +28,9 @@ public:
             if (block.count > 0) check_rears_downstream(model, state, lane);
         }
         if (state.records.entered - state.records.exited != present)
-            report(model, state, fmt::format("{} vehicles entered and {} exited, but {} are present",
-                                             state.records.entered, state.records.exited, present));
+            report(model, state,
+                   fmt::format("{} vehicles entered and {} exited, but {} are present", state.records.entered,
+                               state.records.exited, present));
     }
 
     // Returns the first fault; empty: none.
@@ -54,8 +55,7 @@ private:
         const int id = v.id[at(slot)];
         const Seen now{state.tick, lane, v.position_m[at(slot)], v.speed_mps[at(slot)]};
         const auto fault = [&](const std::string& text) {
-            report(model, state,
-                   fmt::format("vehicle {} on {}: {}", id, model.graph.lanes[at(lane)].name, text));
+            report(model, state, fmt::format("vehicle {} on {}: {}", id, model.graph.lanes[at(lane)].name, text));
         };
         if (id < 0) return fault("the id is negative");
         if (seen_.size() <= at(id)) seen_.resize(2 * at(id) + 1);
@@ -78,7 +78,8 @@ private:
         }
         last = now;
         if (slot == state.blocks[at(lane)].first) return;
-        const double gap_m = v.position_m[at(slot - 1)] - static_cast<double>(v.length_m[at(slot - 1)]) - now.position_m;
+        const double gap_m =
+            v.position_m[at(slot - 1)] - static_cast<double>(v.length_m[at(slot - 1)]) - now.position_m;
         if (gap_m < -kRounding_m) fault(fmt::format("net gap of {} m to vehicle {}", gap_m, v.id[at(slot - 1)]));
     }
 

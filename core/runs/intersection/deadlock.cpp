@@ -26,26 +26,37 @@ void DeadlockSearch::observe(const State& state) {
         }
     }
     found.from_s = model_.time_s(earliest_tick);
-    // The rings are observed at intervals, so the latest observation is at most one interval old.
-    const double latest_s = model_.time_s(state.tick - model_.rules.watch_ticks);
-    for (const Gridlock& ring : state.congestion.delays.gridlocks) {
-        const bool has_vehicle = std::count(ring.vehicles.begin(), ring.vehicles.end(), found.vehicle) > 0;
-        if (ring.to_s < latest_s || (!found.ring.vehicles.empty() && !has_vehicle)) continue;
-        found.ring = ring;
-    }
+    found.members = members_from(state.congestion.watch, found.vehicle);
     deadlock_ = found;
+}
+
+// The delay watch holds the slots of its latest observation, which is at most one interval old. Since then, vehicles
+// may have got other slots, so they are identified by their ids.
+std::vector<DeadlockMember> DeadlockSearch::members_from(const DelayWatch& watch, int vehicle) {
+    std::vector<DeadlockMember> members;
+    const auto stopped = std::find_if(watch.stopped_slots.begin(), watch.stopped_slots.end(),
+                                      [&](int slot) { return watch.vehicle[at(slot)] == vehicle; });
+    for (int slot = stopped == watch.stopped_slots.end() ? -1 : *stopped; slot >= 0;) {
+        const int blocker = watch.waits_for[at(slot)];
+        members.push_back({watch.vehicle[at(slot)], watch.lane[at(slot)], watch.direct_cause[at(slot)],
+                           blocker < 0 ? -1 : watch.vehicle[at(blocker)]});
+        const auto is_listed = [&](const DeadlockMember& one) { return one.vehicle == members.back().waits_for; };
+        const bool is_stopped = std::count(watch.stopped_slots.begin(), watch.stopped_slots.end(), blocker) > 0;
+        if (!is_stopped || std::any_of(members.begin(), members.end(), is_listed)) break;
+        slot = blocker;
+    }
+    return members;
 }
 
 std::string deadlock_text(const Deadlock& deadlock, const std::vector<std::string>& lanes) {
     const auto name = [&](int lane) { return lane < 0 ? std::string("an unknown lane") : lanes[at(lane)]; };
-    std::string text = fmt::format("vehicle {} has been inside the intersection on {} from {:.1f} s to {:.1f} s",
+    std::string text = fmt::format("vehicle {} has been inside the intersection on {} from {:.1f} s to {:.1f} s.\n",
                                    deadlock.vehicle, name(deadlock.lane), deadlock.from_s, deadlock.to_s);
-    const std::vector<int>& ring = deadlock.ring.vehicles;
-    if (ring.empty()) return text + "; no ring of vehicles waits for each other\n";
-    text += fmt::format("; since {:.0f} s, {} vehicles wait for each other:\n", deadlock.ring.from_s, ring.size());
-    for (std::size_t k = 0; k < ring.size(); ++k) {
-        text += fmt::format("  vehicle {} on {} waits for vehicle {}\n", ring[k], name(deadlock.ring.lanes[k]),
-                            ring[(k + 1) % ring.size()]);
+    for (const DeadlockMember& member : deadlock.members) {
+        const char* const cause = kDelayCauseNames[static_cast<std::size_t>(member.cause)];
+        const std::string why = member.cause == DelayCause::none ? "" : fmt::format(" ({})", cause);
+        const std::string whom = member.waits_for < 0 ? "" : fmt::format(" for vehicle {}", member.waits_for);
+        text += fmt::format("  vehicle {} on {} waits{}{}\n", member.vehicle, name(member.lane), whom, why);
     }
     return text;
 }

@@ -7,10 +7,18 @@
 #include <string>
 #include <vector>
 
-#include "sim/state/delay_log.h"
+#include "sim/state/congestion_state.h"
 #include "sim/step/simulation.h"
 
 namespace stopline {
+
+// A vehicle of a deadlock, and what it waits for.
+struct DeadlockMember {
+    int vehicle = -1;                     // id
+    int lane = -1;                        // connection inside the intersection, or another lane
+    DelayCause cause = DelayCause::none;  // none: the vehicle waits only for the vehicle ahead, or it moves
+    int waits_for = -1;                   // id of the stopped vehicle for which it waits; -1: none
+};
 
 // The first deadlock of a run.
 struct Deadlock {
@@ -18,9 +26,9 @@ struct Deadlock {
     int lane = -1;        // connection of this vehicle
     double from_s = 0.0;  // time at which it entered the intersection
     double to_s = 0.0;    // time at which its stay became too long
-    // The vehicles that waited for each other at that time: each waits for the next one, the last one for the first
-    // one. Empty: there was no such ring.
-    Gridlock ring = {};
+    // The vehicle that stays too long, the vehicle for which it waits, the vehicle for which this one waits, and so on.
+    // The last one waits for no stopped vehicle, or for one that is listed already.
+    std::vector<DeadlockMember> members = {};
 };
 
 // Finds the first deadlock of a run. The model must record delay causes (RulesPlan::watch_ticks).
@@ -34,6 +42,8 @@ public:
     const std::optional<Deadlock>& deadlock() const { return deadlock_; }
 
 private:
+    static std::vector<DeadlockMember> members_from(const DelayWatch& watch, int vehicle);
+
     const Model& model_;
     std::int64_t limit_ticks_;
     std::optional<Deadlock> deadlock_;

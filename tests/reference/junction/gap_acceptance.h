@@ -130,7 +130,8 @@ private:
         const double speed_mps = c.vehicle->speed_mps;
         const double critical_s = driver.give_way.critical_gap_s;
         if (!w_.is_imported)
-            return std::max(critical_s, emergency_stop_s(conflict)) + travel_s(driver, wait_m - c.front_m, speed_mps, w_.lane(c.connection).limit_mps);
+            return std::max(critical_s, emergency_stop_s(conflict)) +
+                   travel_s(driver, wait_m - c.front_m, speed_mps, w_.lane(c.connection).limit_mps);
         const double now_s = passing_s(c, conflict, c.front_m, speed_mps);
         if (has_begun) return now_s;
         const double later_s = now_s - passing_s(c, conflict, wait_m, 0.0);
