@@ -28,7 +28,7 @@ import shrink
 
 LONGEST_S = 120
 # Lines of stopline_check_scenario that are no failure.
-NOTES = {"refused", "starved", "compared", "rounding"}
+NOTES = {"refused", "starved", "compared", "rounding", "deadlock_expected"}
 
 
 def write_case(case, folder):

@@ -13,7 +13,12 @@ DeadlockSearch::DeadlockSearch(const Model& model, double limit_s)
     : model_(model), limit_ticks_(static_cast<std::int64_t>(std::ceil(limit_s / model.step_s - 1e-9))) {}
 
 void DeadlockSearch::observe(const State& state) {
-    if (deadlock_ || state.records.longest_in_junction < limit_ticks_) return;
+    if (deadlock_) {
+        // The vehicle may have crawled when the deadlock was found. It then has members as soon as it is seen stopped.
+        if (deadlock_->members.empty()) deadlock_->members = members_from(state.congestion.watch, deadlock_->vehicle);
+        return;
+    }
+    if (state.records.longest_in_junction < limit_ticks_) return;
     Deadlock found;
     found.to_s = model_.time_s(state.tick);
     std::int64_t earliest_tick = state.tick;

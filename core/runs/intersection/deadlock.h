@@ -27,7 +27,7 @@ struct Deadlock {
     double from_s = 0.0;  // time at which it entered the intersection
     double to_s = 0.0;    // time at which its stay became too long
     // The vehicle that stays too long, the vehicle for which it waits, the vehicle for which this one waits, and so on.
-    // The last one waits for no stopped vehicle, or for one that is listed already.
+    // The last one waits for no stopped vehicle, or for one that is listed already. Empty: the first one never stopped.
     std::vector<DeadlockMember> members = {};
 };
 
