@@ -20,7 +20,7 @@ void expect_same_bits(const std::string& text, double until_s) {
     Simulation scalar(scalar_model);
     simulation.run_until(until_s);
     scalar.run_until(until_s);
-    EXPECT_GT(simulation.state().records.exited, 20);
+    EXPECT_GT(simulation.state().records.entered, 20);
     EXPECT_EQ(simulation.state_hash(), scalar.state_hash());
 }
 

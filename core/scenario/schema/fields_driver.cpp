@@ -77,7 +77,7 @@ const Table& free_drive_table() {
             number<&S::power_share>("power_share", "%", {1, 100},
                                     "on roads with a higher limit: lowest acceleration, as a share of the highest "
                                     "acceleration that the vehicle can give at its speed"),
-            number<&S::speed_gain_1ps>("speed_gain", "1/s", {0, 10}, "acceleration per m/s below the desired speed"),
+            number<&S::speed_gain_1ps>("speed_gain", "1/s", {0.01, 10}, "acceleration per m/s below the desired speed"),
             number<&S::deceleration_mps2>("deceleration", "m/s2", {0.1, 10}, "deceleration before a lower speed limit"),
             number<&S::hesitation_s>("hesitation", "s", {0, 10},
                                      "first vehicle at the stop line: time from green to the release of the brake"),
