@@ -10,8 +10,9 @@
 //   - reference: the first part of the run agrees with the reference engine, if that covers the scenario. Only with the
 //     word `reference`
 //
-// Prints one line for each population and check that fails: the check, a tab and a text. A starved movement is a line,
-// too, but no failure. So is a deadlock at an intersection whose rules or signal times do not prevent it. Exit codes: 0 all checks hold, 1 some fail, 2 the scenario is refused.
+// Prints one line for each population and check that fails: the check, a tab and a text. Some lines are no failures:
+// `starved`, `compared`, `rounding`, and `deadlock_expected` for a deadlock at an intersection whose rules or signal
+// times do not prevent it. Exit codes: 0 all checks hold, 1 some fail, 2 the scenario is refused.
 #include <algorithm>
 #include <cstdio>
 #include <exception>

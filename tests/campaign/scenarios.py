@@ -19,6 +19,7 @@ CARS = ["petrol_eu4_72kw", "petrol_eu4_84kw", "diesel_eu4_103kw", "electric_100k
 # Vehicle and driver.
 FLEET = [(car, None) for car in CARS] + [("rigid_lorry_12t", "lorry"), ("articulated_lorry_35t", "lorry"),
                                          ("city_bus_12m", "bus")]  # fmt: skip
+LAWS = ["constant_distance", "constant_time", "switch_time_gap", "switch_distance", "formula", "table", "human"]
 MESO = ["table2", "fitted", "passages", "start", "start_passages"]
 LANES = [
     ["straight"], ["straight+left+right"], ["straight+left"], ["straight+right"], ["left+right"],
@@ -29,8 +30,8 @@ LANES = [
 ]  # fmt: skip
 SIDES = ["west", "south", "east", "north"]
 # Imported networks. With route files, or with pairs of the first and the last edge of trips.
-NETS_WITH_ROUTES = ["fast_random", "left_turns", "lights_grid", "never_green", "roundabout", "short_edges", "speed_drop",
-                    "wrong_turn_lane"]  # fmt: skip
+NETS_WITH_ROUTES = ["fast_random", "left_turns", "lights_grid", "never_green", "roundabout", "short_edges",
+                    "speed_drop", "wrong_turn_lane"]  # fmt: skip
 FOUR_WAY = [(f"{a}i", f"{b}o") for a in "nesw" for b in "nesw" if a != b]
 ROUNDABOUT = [(f"i{a}", f"x{b}") for a in range(4) for b in range(4) if a != b]
 NETS_WITH_TRIPS = {
@@ -106,7 +107,8 @@ class ScenarioDraw:
             green_s = float(signal["green"].split()[0])
             signal.update({"cycle": f"{green_s + self.number(10, 60):g} s", "yellow": f"{self.rng.choice([0, 1, 3])} s",
                            "all_red": "0 s"})  # fmt: skip
-        demand = self.rng.choice([{"kind": "queue", "vehicles": self.number(1, 20)}, self.rate(1), {"kind": "saturated"}])
+        queue = {"kind": "queue", "vehicles": self.number(1, 20)}
+        demand = self.rng.choice([queue, self.rate(1), {"kind": "saturated"}])
         return {"network": {"kind": "approach", "approach": road}, "signal": signal, "demand": demand}
 
     def layout(self):
@@ -143,8 +145,9 @@ class ScenarioDraw:
                     left, through = pair if ring == 1 else pair[::-1]
                     if "left" in movements and "left" in lanes:
                         phases.append({"protected": named(left, ["left"]), "ring": ring, "barrier": barrier})
+                    place = {"ring": ring, "barrier": barrier}
                     phases.append({"protected": named(through, ["straight", "right"]),
-                                   "permissive": named(through, ["left"]), "ring": ring, "barrier": barrier})  # fmt: skip
+                                   "permissive": named(through, ["left"]), **place})  # fmt: skip
         else:
             for pair in (("west", "east"), ("south", "north")):
                 if "left" in lanes and self.chance(60):
@@ -157,7 +160,8 @@ class ScenarioDraw:
             phase.update(self.times())
             if choice != "phases":
                 phase.update(self.some({
-                    "min_green": lambda: f"{self.edge((3, 8), [0.1, 1])} s", "max_green": lambda: f"{self.number(10, 60)} s",
+                    "min_green": lambda: f"{self.edge((3, 8), [0.1, 1])} s",
+                    "max_green": lambda: f"{self.number(10, 60)} s",
                     "gap": lambda: f"{self.edge((1, 4), [0.1, 0.5], 10)} s",
                     "recall": lambda: self.rng.choice(["minimum", "maximum"])}, 30))  # fmt: skip
         signal["phases"] = [{key: value for key, value in phase.items() if value != []} for phase in phases]
@@ -255,8 +259,7 @@ class ScenarioDraw:
 
     def own_policy(self, name, fidelity):
         borders = [2, 2.0, 2.1] if fidelity == "full" else [0.1, 0.2, 0.5, 0.7, 1]
-        policy = {"name": name, "law": self.rng.choice(
-            ["constant_distance", "constant_time", "switch_time_gap", "switch_distance", "formula", "table", "human"])}  # fmt: skip
+        policy = {"name": name, "law": self.rng.choice(LAWS)}
         gap_m = self.edge((2, 8, 2), borders, 30)
         policy["standstill_gap"] = f"{gap_m} m"
         if policy["law"] in ("constant_time", "switch_time_gap", "human"):
@@ -290,7 +293,8 @@ class ScenarioDraw:
                     component["driver"] = driver
         elif self.chance(70):
             fields["vehicle"] = {"base": self.rng.choice(CARS)} | self.some(
-                {"length": lambda: f"{self.edge((3, 12), [0.5, 18, 25])} m", "load": lambda: f"{self.number(0, 600)} kg"}, 25)
+                {"length": lambda: f"{self.edge((3, 12), [0.5, 18, 25])} m",
+                 "load": lambda: f"{self.number(0, 600)} kg"}, 25)  # fmt: skip
         own = [policy for policy in own if policy["name"] in names]
         if own:
             fields["policies"] = own
@@ -318,7 +322,8 @@ class ScenarioDraw:
                          "approach_acceleration": lambda: f"{self.number(0.5, 4, 1)} m/s2"},
             "lane_change": change,
             "human": {"reaction": lambda: f"{self.edge((0.5, 1.5, 2), [0, 2])} s", "reaction_spread": "0 s",
-                      "gap_error": lambda: self.number(0, 0.3, 2), "start_reaction": lambda: f"{self.number(0.3, 1.5, 1)} s"},
+                      "gap_error": lambda: self.number(0, 0.3, 2),
+                      "start_reaction": lambda: f"{self.number(0.3, 1.5, 1)} s"},
             "platoon": {"max_vehicles": lambda: str(self.rng.choice([1, 2, 5, "by_stability"]))},
         }  # fmt: skip
         driver = {"base": "startup_kit"}

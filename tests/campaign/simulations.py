@@ -46,7 +46,8 @@ def check(binary, case, folder, words):
     """Runs a case. Returns the lines of the program as pairs (check, text)."""
     command = [str(binary / "stopline_check_scenario"), str(write_case(case, folder)), *words]
     try:
-        result = subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=LONGEST_S, check=False)
+        result = subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=LONGEST_S,
+                                check=False)  # fmt: skip
     except subprocess.TimeoutExpired:
         return [("timeout", f"more than {LONGEST_S} s")]
     lines = [tuple(line.split("\t", 1)) for line in result.stdout.splitlines() if "\t" in line]
@@ -103,7 +104,8 @@ class Campaign:
         lines = check(self.options.bin, case, folder, words)
         print(f"  smaller: {next((text for one, text in lines if one == name), 'not repeated')}")
         print("  " + (folder / "scenario.yaml").read_text().replace("\n", "\n  ").rstrip())
-        print(f"  to repeat it: {' '.join(['stopline_check_scenario', str(folder / 'scenario.yaml'), *words])}", flush=True)
+        command = ["stopline_check_scenario", str(folder / "scenario.yaml"), *words]
+        print(f"  to repeat it: {' '.join(command)}", flush=True)
 
     def table(self):
         """Returns the counts as text: one line for each kind of network and fidelity."""
@@ -124,7 +126,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=1, help="runs at the same time (default: 1)")
     parser.add_argument("--output", type=Path, default=Path("campaign"), help="folder for scenarios that fail")
     parser.add_argument("--shrink", type=int, default=300, metavar="RUNS",
-                        help="runs to make a failing scenario smaller (default: 300; 0: it stays as it is)")  # fmt: skip
+                        help="runs to make a failing scenario smaller (default: 300; 0: none)")  # fmt: skip
     options = parser.parse_args()
     options.bin, options.output = options.bin.resolve(), options.output.resolve()
     begin = time.monotonic()
@@ -136,7 +138,8 @@ def main():
             if done % 100 == 0:
                 print(f"{done} of {options.runs} scenarios, {len(campaign.failed)} failed", flush=True)
     print(campaign.table())
-    print(f"{options.runs} scenarios in {time.monotonic() - begin:.0f} s, {len(campaign.failed)} failed: {campaign.failed}")
+    seconds = time.monotonic() - begin
+    print(f"{options.runs} scenarios in {seconds:.0f} s, {len(campaign.failed)} failed: {campaign.failed}")
     return 1 if campaign.failed else 0
 
 

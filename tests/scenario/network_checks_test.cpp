@@ -213,7 +213,8 @@ TEST(StringStability, IsForSingleLights) {
     EXPECT_EQ(error_for_kind("approach", {"measure.string_stability=on"}), "");
 }
 
-// A vehicle at rest occupies the road from 1 m before the stop line (driver.stop.margin) to its length further upstream.
+// A vehicle at rest occupies the road from 1 m before the stop line (driver.stop.margin) to its length further
+// upstream.
 TEST(StopDetector, LiesBelowTheFirstVehicleOfAQueue) {
     const std::string actuated =
         "signal.phases=[{protected: [west_straight, east_straight], green: 10 s}, "
