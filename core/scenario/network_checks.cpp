@@ -134,8 +134,8 @@ void check_entries(const Scenario& scenario, Checker& check) {
     }
 }
 
-// A vehicle at rest occupies the road from driver.stop.margin before the stop line to a vehicle length further upstream.
-// The detector must lie in this part of the road for all vehicles.
+// A vehicle at rest occupies the road from driver.stop.margin before the stop line to a vehicle length further
+// upstream. The detector must lie in this part of the road for all vehicles.
 void check_stop_detector(const Scenario& scenario, Checker& check) {
     const NetworkKind& kind = network_kind(scenario.network);
     const SignalController& controller = find_signal_controller(scenario.signal.controller);
