@@ -20,6 +20,9 @@ std::string intersection_text(const IntersectionReport& report) {
         if (f.discharge.saturated_greens == 0) unsaturated += (unsaturated.empty() ? "" : ", ") + f.population;
         runs_with_violations += f.violations.none() ? 0 : 1;
         first_violations += first_violation_text(f.population, f.violations, report.lanes);
+        if (f.deadlock)
+            first_violations +=
+                fmt::format("Deadlock of {}: {}", f.population, deadlock_text(*f.deadlock, report.lanes));
     }
     const TimeWindow window = measured_window(scenario);
     const std::string notes = paragraphs_text(console_notes(intersection_metrics(), scenario)) +

@@ -1,12 +1,15 @@
 #include "scenario/driving_checks.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/simd/arithmetic.h"
 #include "base/units.h"
 #include "driver/following_model.h"
 #include "scenario/fleets.h"
@@ -97,6 +100,61 @@ void check_lags(const DrivenVehicle& driven, Checker& check) {
                                              *std::max_element(car.lag_gear_factor.begin(), car.lag_gear_factor.end()));
 }
 
+// Returns by how much a vehicle of the component can drive beyond the place where it wants to stop, m.
+//
+// Mesoscale mode: before a stop with the remaining distance r, the speed of the next step is
+//     v(r) = sqrt((b tau)^2 + 2 b r) - b tau
+// with the deceleration b and the reaction time tau of the model. The vehicle drives v(r) dt in the step, which exceeds
+// r by at most b (dt - tau)^2 / 2 if the step dt is longer than tau; otherwise it does not.
+double stop_overshoot_m(const Scenario& scenario, const PopulationSettings::Component& component) {
+    const auto policy = std::find_if(scenario.policies.begin(), scenario.policies.end(),
+                                     [&](const GapPolicySettings& one) { return one.name == component.policy; });
+    if (policy == scenario.policies.end()) return 0.0;
+    const MesoGap gap = make_gap_policy(*policy).meso;
+    if (gap.family.empty()) return 0.0;
+    const DriverSettings& driver = driver_of(scenario, component);
+    const FollowingBraking braking = make_following_model({scenario.meso, driver.human}, gap).braking();
+    const double b = std::min(braking.deceleration_mps2, driver.stop.deceleration_mps2);
+    return 0.5 * b * square(std::max(scenario.meso.step_s - braking.reaction_s, 0.0));
+}
+
+// Checks that the margins before stop lines and conflict areas are longer than a vehicle can overshoot its stop.
+// `field`: the field of the driver, such as "driver".
+void check_stop_margins(const Scenario& scenario, const DriverSettings& driver, double overshoot_m,
+                        const std::string& field, Checker& check) {
+    constexpr double kReserve_m = 0.001;  // so that rounding does not put a vehicle at rest beyond the margin
+    const double min_m = std::ceil(1000.0 * (overshoot_m + kReserve_m) - kRounding) / 1000.0;
+    const auto compare = [&](const std::string& name, double margin_m) {
+        if (margin_m >= min_m - kRounding) return;
+        check.error(field + name,
+                    fmt::format("value {} is too small: with meso.step = {} vehicles can stop {} too "
+                                "late: at least {}, or a shorter step",
+                                short_text(margin_m, unit("m")), short_text(scenario.meso.step_s, unit("s")),
+                                short_text(overshoot_m, unit("m")), short_text(min_m, unit("m"))));
+    };
+    compare(".stop.margin", driver.stop.margin_m);
+    if (network_kind(scenario.network).run != kRunAsSingleLight) compare(".give_way.margin", driver.give_way.margin_m);
+}
+
+void check_stops(const Scenario& scenario, Checker& check) {
+    struct Stop {
+        const DriverSettings* driver = nullptr;
+        double overshoot_m = 0.0;
+    };
+    std::map<std::string, Stop> stops;  // by the field of the driver, which several components can share
+    for (const PopulationSettings& population : scenario.populations) {
+        for (std::size_t k = 0; k < population.components.size(); ++k) {
+            const PopulationSettings::Component& component = population.components[k];
+            const std::string field =
+                component.driver ? fmt::format("populations[{}].components[{}].driver", population.name, k) : "driver";
+            Stop& stop = stops[field];
+            stop.driver = &driver_of(scenario, component);
+            stop.overshoot_m = std::max(stop.overshoot_m, stop_overshoot_m(scenario, component));
+        }
+    }
+    for (const auto& [field, stop] : stops) check_stop_margins(scenario, *stop.driver, stop.overshoot_m, field, check);
+}
+
 constexpr double kLimitRounding = 1.001;
 
 std::string kmh(double speed_mps) { return short_text(speed_mps, unit("km/h")); }
@@ -122,7 +180,7 @@ std::string beyond_text(double limit_mps, double range_mps, const std::string& d
 
 void check_gaps(const Scenario& scenario, Checker& check) {
     check_policies(scenario, check);
-    if (scenario.is_meso()) return;
+    if (scenario.is_meso()) return check_stops(scenario, check);
     const auto check_driven = [&](const DrivenVehicle& driven) {
         check_tyres(driven, check);
         check_lags(driven, check);

@@ -17,7 +17,7 @@ namespace stopline {
 inline constexpr double kMinStandstillGap_m = 2.0;
 
 // Checks the policies that the populations use. In full dynamics, also checks the tyres and the lags of brake and drive
-// torque.
+// torque. In the mesoscale mode, also checks the distances that vehicles keep to stop lines and conflict areas.
 void check_gaps(const Scenario& scenario, Checker& check);
 
 // Returns one line for each parameter set that the scenario uses beyond its range. Full dynamics: the speed limits of

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <string_view>
 
 #include "base/nearest_name.h"
 #include "base/simd/arithmetic.h"
@@ -11,6 +12,7 @@
 #include "scenario/fleets.h"
 #include "scenario/kinds/network_kind.h"
 #include "scenario/schema/quantity.h"
+#include "signals/actuation.h"
 
 namespace stopline {
 namespace {
@@ -129,6 +131,29 @@ void check_entries(const Scenario& scenario, Checker& check) {
                                           stopping_text(scenario, speed_mps) + " before the stop line: at least " +
                                           metres(min_length_m) + ", or a lower demand.entry_speed than " +
                                           short_text(scenario.demand.entry_speed_mps, unit("km/h")));
+    }
+}
+
+// A vehicle at rest occupies the road from driver.stop.margin before the stop line to a vehicle length further
+// upstream. The detector must lie in this part of the road for all vehicles.
+void check_stop_detector(const Scenario& scenario, Checker& check) {
+    const NetworkKind& kind = network_kind(scenario.network);
+    const SignalController& controller = find_signal_controller(scenario.signal.controller);
+    const auto is_stop_detector = [](const SignalParameter& one) {
+        return std::string_view(one.name) == kStopDetectorParameter.name;
+    };
+    const bool has_detector = std::any_of(controller.parameters.begin(), controller.parameters.end(), is_stop_detector);
+    if (!has_detector || (kind.signal_groups == 0 && !kind.chooses_controller)) return;
+    const double detector_m = signal_parameter(scenario.signal, kStopDetectorParameter.name);
+    for (const PopulationSettings::Component* component : all_components(scenario)) {
+        const double front_m = driver_of(scenario, *component).stop.margin_m;
+        const double length_m = vehicle_of(scenario, *component).length_m;
+        if (detector_m >= front_m - kRounding_m && detector_m <= front_m + length_m + kRounding_m) continue;
+        return check.error("signal.stop_detector",
+                           "value " + metres(detector_m) + ": a vehicle of " + metres(length_m) + " that waits " +
+                               metres(front_m) + " before the stop line (driver.stop.margin) does not stand on the " +
+                               "detector, so it calls no green: " + metres(front_m) + " to " +
+                               metres(front_m + length_m) + " for this vehicle");
     }
 }
 

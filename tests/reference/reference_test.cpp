@@ -18,15 +18,6 @@ namespace {
 
 using namespace reference_engine;
 
-// Mesoscale mode: both engines compute with doubles and differ in the order of operations only. Their rounding errors
-// of about 1e-15 m grow in stop-and-go waves (stored() in world.h). Of 2000 scenarios, ten exceed the tolerance. In
-// these ten, noise of 1e-13 m/s changes the run of the reference engine just as much.
-constexpr Tolerance kMesoTolerance{1e-5, 1e-5, 1e-4};
-// Full dynamics: core/sim computes accelerations with floats, whose errors are about 1e-6 m/s2. The controllers keep
-// the resulting differences bounded: they are 1e-5 m in most scenarios and below 2e-4 m in 99 %, whatever the duration.
-// If rounding releases the brake of a starting vehicle a step earlier, its position differs by 1e-3 m.
-constexpr Tolerance kFullTolerance{3e-3, 3e-3, 3e-3};
-
 // Compares both engines in the plans that `draw` returns. In at most one of 20 scenarios, rounding may decide. In fact
 // it decides in one of 60 scenarios of full dynamics, and in one of 150 of the mesoscale mode.
 template <class Draw>

@@ -96,5 +96,26 @@ TEST(DrivingChecks, LongMesoscaleStepsGiveAWarningWithConstantDistances) {
     EXPECT_EQ(warnings_with({"fidelity=meso", "meso.step=0.2 s", "populations=[CTG-Ref]"}, "meso.step"), 0);
 }
 
+// Mesoscale mode: a vehicle stops up to b (dt - tau)^2 / 2 too late. The parameters `start_passages` have a reaction
+// time tau of about 1 ms for the policy CDG. With the deceleration b = 2.5 m/s2 of driver.stop and steps of 0.5 s this
+// gives 0.311 m.
+TEST(DrivingChecks, MarginsCoverTheStepsOfAStop) {
+    const auto with = [](std::vector<std::string> overrides) {
+        overrides.insert(overrides.begin(), {"fidelity=meso", "meso=start_passages", "populations=[CDG]",
+                                             "network.kind=intersection", "duration=400 s"});
+        return error_with(overrides);
+    };
+    EXPECT_EQ(with({"meso.step=0.5 s"}), "");
+    EXPECT_EQ(with({"meso.step=0.5 s", "driver.stop.margin=0.313 m"}), "");
+    EXPECT_TRUE(contains(with({"meso.step=0.5 s", "driver.stop.margin=0.31 m"}),
+                         "field 'driver.stop.margin': value 0.31 m is too small: with meso.step = 0.5 s vehicles can "
+                         "stop 0.3112844 m too late: at least 0.313 m, or a shorter step"));
+    EXPECT_TRUE(contains(with({"meso.step=0.5 s", "driver.give_way.margin=0.2 m"}), "field 'driver.give_way.margin'"));
+    EXPECT_EQ(with({"driver.give_way.margin=0.014 m"}), "");
+    EXPECT_TRUE(contains(with({"driver.give_way.margin=0 m"}), "at least 0.014 m"));
+    // Full dynamics has no such steps.
+    EXPECT_EQ(error_with({"network.kind=intersection", "duration=400 s", "driver.give_way.margin=0 m"}), "");
+}
+
 }  // namespace
 }  // namespace stopline

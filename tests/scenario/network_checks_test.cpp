@@ -213,5 +213,31 @@ TEST(StringStability, IsForSingleLights) {
     EXPECT_EQ(error_for_kind("approach", {"measure.string_stability=on"}), "");
 }
 
+// A vehicle at rest occupies the road from 1 m before the stop line (driver.stop.margin) to its length further
+// upstream.
+TEST(StopDetector, LiesBelowTheFirstVehicleOfAQueue) {
+    const std::string actuated =
+        "signal.phases=[{protected: [west_straight, east_straight], green: 10 s}, "
+        "{protected: [south_straight, north_straight], green: 10 s}]";
+    const auto error = [&](const std::vector<std::string>& settings) {
+        std::vector<std::string> overrides{"network.intersection.lanes=[{movements: straight}]", actuated,
+                                           "signal.controller=actuated"};
+        overrides.insert(overrides.end(), settings.begin(), settings.end());
+        return error_for_kind("intersection", overrides);
+    };
+    EXPECT_EQ(error({}), "");
+    EXPECT_EQ(error({"signal.stop_detector=1 m"}), "");
+    EXPECT_EQ(error({"signal.stop_detector=6.1 m"}), "");
+    EXPECT_TRUE(contains(error({"signal.stop_detector=6.2 m"}),
+                         "field 'signal.stop_detector': value 6.2 m: a vehicle of 5.15 m that waits 1 m before the "
+                         "stop line (driver.stop.margin) does not stand on the detector, so it calls no green: 1 m to "
+                         "6.15 m for this vehicle"));
+    EXPECT_TRUE(contains(error({"signal.stop_detector=0.9 m"}), "1 m to 6.15 m for this vehicle"));
+    EXPECT_TRUE(contains(error({"vehicle.length=0.5 m"}), "value 3 m: a vehicle of 0.5 m"));
+    EXPECT_TRUE(contains(error({"driver.stop.margin=4 m"}), "that waits 4 m before the stop line"));
+    // The controller fixed_time has no detectors.
+    EXPECT_EQ(error({"signal.controller=fixed_time", "vehicle.length=0.5 m"}), "");
+}
+
 }  // namespace
 }  // namespace stopline

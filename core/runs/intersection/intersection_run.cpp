@@ -201,6 +201,11 @@ double slowest_crossing_s(const Model& model) {
     return slowest_s;
 }
 
+// Returns the shortest stay in the intersection that counts as a deadlock, s.
+double deadlock_limit_s(const Scenario& scenario, const Model& model) {
+    return 2.0 * cycle_of(scenario) + slowest_crossing_s(model);
+}
+
 }  // namespace
 
 TimeWindow first_cycle(const Scenario& scenario) {
@@ -230,6 +235,7 @@ IntersectionResult run_intersection(const Scenario& scenario, std::size_t popula
     result.complete = true;
     QueueSampler sampler(model, result.window);
     DrivingMeters driving(scenario, population, model);
+    DeadlockSearch deadlocks(model, deadlock_limit_s(scenario, model));
     std::optional<HcmSampler> hcm;
     if (asks_for_hcm(scenario)) hcm.emplace(scenario, model);
     const std::int64_t end_tick = to_ticks(result.window.to_s, model.step_s);
@@ -246,6 +252,7 @@ IntersectionResult run_intersection(const Scenario& scenario, std::size_t popula
         if (hcm) hcm->sample(simulation.state());
         observation.call(population, simulation);
         simulation.step();
+        deadlocks.observe(simulation.state());
     }
     const State& state = simulation.state();
     if (result.complete) observation.call(population, simulation);
@@ -273,10 +280,8 @@ IntersectionResult run_intersection(const Scenario& scenario, std::size_t popula
     result.v2v = v2v_result(state.records, model.v2v_plan);
     result.departure = departure_delays(model, state);
     result.backlog = insertion_backlog(model, state);
-    // A run has a deadlock if a vehicle stays in the intersection for slowest_crossing_s() plus two signal cycles or
-    // longer.
-    const double deadlock_s = 2.0 * cycle_of(scenario) + slowest_crossing_s(model);
-    result.violations.deadlocks = result.longest_in_junction_s >= deadlock_s ? 1 : 0;
+    result.deadlock = deadlocks.deadlock();
+    result.violations.deadlocks = result.deadlock ? 1 : 0;
     result.entered = state.records.entered;
     result.exited = state.records.exited;
     result.updates = state.records.updates;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "measure/hcm.h"
 #include "measure/zones.h"
 #include "runs/driving/driving_results.h"
+#include "runs/intersection/deadlock.h"
 #include "runs/observation.h"
 #include "runs/v2v_results.h"
 #include "scenario/scenario.h"
@@ -47,6 +49,7 @@ struct IntersectionResult {
     std::vector<DrawnVehicle> snapshot;
     std::vector<Light> snapshot_lights;  // [signal group] at the time of the snapshot
     Violations violations;
+    std::optional<Deadlock> deadlock;  // the first one
     V2vResult v2v;
     DrivingResults driving;
     DepartureDelays departure;  // departure delays of all vehicles that arrived

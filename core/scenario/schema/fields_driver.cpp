@@ -181,18 +181,19 @@ const Table& lane_change_table() {
 
 const Table& give_way_table() {
     using S = GiveWaySettings;
-    static const Table table =
-        make_table<S>("yielding inside intersections",
-                      {
-                          number<&S::critical_gap_s>("critical_gap", "s", {0, 60},
-                                                     "shortest accepted time to the next vehicle with priority"),
-                          number<&S::margin_m>("margin", "m", {0, 10},
-                                               "distance from the front of a waiting vehicle to the conflict area"),
-                          number<&S::approach_acceleration_mps2>(
-                              "approach_acceleration", "m/s2", {0.1, 10},
-                              "assumed acceleration of approaching vehicles with priority, up to the speed limit")
-                              .renamed_from("approach"),
-                      });
+    static const Table table = make_table<S>(
+        "yielding inside intersections",
+        {
+            number<&S::critical_gap_s>("critical_gap", "s", {0, 60},
+                                       "shortest accepted time to the next vehicle with priority; never so "
+                                       "short that this vehicle could not stop in an emergency"),
+            number<&S::margin_m>("margin", "m", {0, 10},
+                                 "distance from the front of a waiting vehicle to the conflict area"),
+            number<&S::approach_acceleration_mps2>(
+                "approach_acceleration", "m/s2", {0.1, 10},
+                "assumed acceleration of approaching vehicles with priority, up to the speed limit")
+                .renamed_from("approach"),
+        });
     return table;
 }
 

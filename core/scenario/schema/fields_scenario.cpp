@@ -157,6 +157,7 @@ void check_scenario(const Scenario& scenario, Checker& check) {
     check_fleets(scenario, check);
     check_gaps(scenario, check);
     check_entries(scenario, check);
+    check_stop_detector(scenario, check);
     check_approaches(scenario, check);
     check_measured_area(scenario, check);
     check_time_space(scenario, check);

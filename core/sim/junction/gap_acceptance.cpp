@@ -53,9 +53,17 @@ double passing_time_s(const Model& model, const State& state, int lane, const Co
     return merges ? time_s + kMergingReserve_s : time_s;
 }
 
+// Returns the shortest gap in s that leaves a vehicle with priority the time for an emergency stop. This vehicle drives
+// at the speed limit, and responds one step after the gap has been accepted.
+double emergency_stop_gap_s(const Model& model, const State& state, const Conflict& conflict) {
+    const double speed_mps = state.plan.free_speed_mps(state.plan.lane(conflict.other).origin);
+    return model.step_s + emergency_stopping_distance_m(model, speed_mps) / speed_mps;
+}
+
 // Returns the earliest arrival time of the next vehicle with priority, in s from now, at which candidate `v` still
 // accepts the gap. `wait_m`: waiting position of the candidate. If the network is not imported (its demand has no
-// trips), the critical gap begins when the candidate reaches `wait_m`.
+// trips), the critical gap begins when the candidate reaches `wait_m`. However short it is, the next vehicle with
+// priority must be able to stop.
 // In imported networks the gap begins when the previous vehicle with priority has reached the area, as in the Highway
 // Capacity Manual. The critical gap then holds for a vehicle that starts from rest at `wait_m`. If the candidate passes
 // the area later or earlier than such a vehicle, the difference is added or subtracted. `has_begun`: the candidate is
@@ -67,7 +75,7 @@ double needed_time_s(const Model& model, const State& state, int lane, const Con
     const double speed_mps = arrays.speed_mps[at(v.slot)];
     const DriverPlan& driver = model.driver_of(arrays.policy[at(v.slot)]);
     if (model.demand.trips.empty()) {
-        return driver.give_way.critical_gap_s +
+        return std::max(driver.give_way.critical_gap_s, emergency_stop_gap_s(model, state, conflict)) +
                travel_time_s(driver, wait_m - v.front_m, speed_mps, state.plan.lane(lane).limit_mps);
     }
     const double passing_s = passing_time_s(model, state, lane, conflict, v, v.front_m, speed_mps);

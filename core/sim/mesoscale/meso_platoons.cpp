@@ -1,12 +1,11 @@
 #include "sim/mesoscale/meso_platoons.h"
 
 #include <algorithm>
-#include <cstdint>
 
 #include "base/containers/index.h"
 #include "base/speed_thresholds.h"
-#include "signals/programme.h"
 #include "sim/state/queries/desired_gap.h"
+#include "sim/state/queries/platoon_interval.h"
 #include "v2v/fallback.h"
 #include "v2v/platoon_place.h"
 
@@ -58,8 +57,7 @@ double time_gap_speed_mps(const Model& model, const VehicleArrays& v, std::size_
 }  // namespace
 
 void update_platoons(const Model& model, State& state, const Partition& part) {
-    constexpr double kInterval_s = 1.0;
-    if (state.tick % std::max<std::int64_t>(to_ticks(kInterval_s, model.step_s), 1) != 0) return;
+    if (!updates_platoons(model, state)) return;
     VehicleArrays& v = state.vehicles;
     PlatoonArrays& platoon = v.platoon;
     for (const int lane : part.occupied) {

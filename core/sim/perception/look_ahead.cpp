@@ -8,6 +8,7 @@
 #include "sim/perception/hidden_leaders.h"
 #include "sim/performance/prefetch.h"
 #include "sim/state/events.h"
+#include "sim/state/queries/platoon_interval.h"
 
 namespace stopline {
 
@@ -252,7 +253,10 @@ void find_leaders_beyond_lanes(const Model& model, const State& state, VehicleAr
     constexpr double kFree_m = 1e6;
     constexpr double kTouch_m = 1e-4;  // reserve, so that rounding does not make the gap negative
     part.extra_demands.clear();
-    for (const int lane : part.awake) {
+    // A platoon can extend from a queue at a red signal across the stop line, and a human driver at rest observes when
+    // the vehicle ahead starts. Both need the present leader also on lanes that sleep.
+    const bool searches_sleeping_lanes = updates_platoons(model, state) || v.has_human_drivers;
+    for (const int lane : searches_sleeping_lanes ? part.occupied : part.awake) {
         advance_prefetch(state, part.prefetch);
         const int head = state.blocks[at(lane)].first;
         const std::size_t sentinel = at(head - 1);

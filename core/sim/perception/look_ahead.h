@@ -45,7 +45,8 @@ LeaderAhead last_vehicle_on_route(const State& state, int lane, int slot, double
 bool rear_is_on_merging_path(const State& state, int lane, int slot, int ahead);
 
 // Finds the leader of the first vehicle of each lane in Partition::awake (occupied lanes, except those whose first
-// vehicle rests at a red signal). Copies this leader to the lane's sentinel slot, the slot before the first vehicle. If
+// vehicle rests at a red signal). Searches all occupied lanes in steps that decide about platoons (platoon_interval.h)
+// and in runs with human drivers. Copies this leader to the lane's sentinel slot, the slot before the first vehicle. If
 // the leader has changed, makes the first vehicle a platoon leader and resets its radar history. In full dynamics, also
 // adds the braking demands due to hidden leaders (hidden_leaders.h).
 void find_leaders_beyond_lanes(const Model& model, const State& state, VehicleArrays& vehicles, Partition& part);

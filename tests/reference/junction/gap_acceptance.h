@@ -112,6 +112,15 @@ private:
         return since_s;
     }
 
+    // Returns the time in which a vehicle with priority comes within the distance of an emergency stop, if it drives at
+    // the speed limit and responds a step later.
+    double emergency_stop_s(const Conflict& conflict) const {
+        constexpr double kResponse_s = 0.3;
+        const Lane& approach = w_.lane(w_.lane(conflict.other).origin);
+        const double speed_mps = (w_.is_meso ? w_.scenario.meso.speed_factor : 1.0) * approach.limit_mps;
+        return w_.step_s + emergency_braking_m(w_, speed_mps) / speed_mps + (w_.is_meso ? 0.0 : kResponse_s);
+    }
+
     // Returns the earliest arrival of the next vehicle with priority at which the candidate accepts the gap. In
     // generated networks, the critical gap begins when the candidate reaches its waiting position. In imported
     // networks, it begins when the previous vehicle with priority has reached the area, and holds for a start from
@@ -121,7 +130,8 @@ private:
         const double speed_mps = c.vehicle->speed_mps;
         const double critical_s = driver.give_way.critical_gap_s;
         if (!w_.is_imported)
-            return critical_s + travel_s(driver, wait_m - c.front_m, speed_mps, w_.lane(c.connection).limit_mps);
+            return std::max(critical_s, emergency_stop_s(conflict)) +
+                   travel_s(driver, wait_m - c.front_m, speed_mps, w_.lane(c.connection).limit_mps);
         const double now_s = passing_s(c, conflict, c.front_m, speed_mps);
         if (has_begun) return now_s;
         const double later_s = now_s - passing_s(c, conflict, wait_m, 0.0);

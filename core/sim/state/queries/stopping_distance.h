@@ -35,12 +35,17 @@ inline double emergency_braking_distance_m(const Model& model, double speed_mps)
     return 0.5 * square(speed_mps) / model.common_driver().cacc.deceleration_emergency_mps2;
 }
 
-// Returns true if a vehicle can stop within `distance_m` with maximum braking. In full dynamics, the vehicle first
-// drives on for a response time: the brake lag plus the time in which the requested acceleration changes.
-inline bool can_stop_within(const Model& model, double speed_mps, double distance_m) {
+// Returns the distance of an emergency stop. In full dynamics, the vehicle first drives on for a response time: the
+// brake lag plus the time in which the requested acceleration changes.
+inline double emergency_stopping_distance_m(const Model& model, double speed_mps) {
     constexpr double kResponse_s = 0.3;
     const double response_m = model.meso ? 0.0 : kResponse_s * speed_mps;
-    return emergency_braking_distance_m(model, speed_mps) + response_m <= distance_m;
+    return emergency_braking_distance_m(model, speed_mps) + response_m;
+}
+
+// Returns true if a vehicle can stop within `distance_m` with maximum braking.
+inline bool can_stop_within(const Model& model, double speed_mps, double distance_m) {
+    return emergency_stopping_distance_m(model, speed_mps) <= distance_m;
 }
 
 // Returns true if the vehicle can stop within `distance_m` if it brakes with `deceleration_mps2` after a response time.

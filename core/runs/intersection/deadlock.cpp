@@ -1,0 +1,69 @@
+#include "runs/intersection/deadlock.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/containers/index.h"
+
+namespace stopline {
+
+DeadlockSearch::DeadlockSearch(const Model& model, double limit_s)
+    : model_(model), limit_ticks_(static_cast<std::int64_t>(std::ceil(limit_s / model.step_s - 1e-9))) {}
+
+void DeadlockSearch::observe(const State& state) {
+    if (deadlock_) {
+        // The vehicle may have crawled when the deadlock was found. It then has members as soon as it is seen stopped.
+        if (deadlock_->members.empty()) deadlock_->members = members_from(state.congestion.watch, deadlock_->vehicle);
+        return;
+    }
+    if (state.records.longest_in_junction < limit_ticks_) return;
+    Deadlock found;
+    found.to_s = model_.time_s(state.tick);
+    std::int64_t earliest_tick = state.tick;
+    for (std::size_t lane = 0; lane < state.junctions.occupants.size(); ++lane) {
+        for (const JunctionOccupant& occupant : state.junctions.occupants[lane]) {
+            if (occupant.since >= earliest_tick) continue;
+            earliest_tick = occupant.since;
+            found.vehicle = state.vehicles.id[at(occupant.slot)];
+            found.lane = static_cast<int>(lane);
+        }
+    }
+    found.from_s = model_.time_s(earliest_tick);
+    found.members = members_from(state.congestion.watch, found.vehicle);
+    deadlock_ = found;
+}
+
+// The delay watch holds the slots of its latest observation, which is at most one interval old. Since then, vehicles
+// may have got other slots, so they are identified by their ids.
+std::vector<DeadlockMember> DeadlockSearch::members_from(const DelayWatch& watch, int vehicle) {
+    std::vector<DeadlockMember> members;
+    const auto stopped = std::find_if(watch.stopped_slots.begin(), watch.stopped_slots.end(),
+                                      [&](int slot) { return watch.vehicle[at(slot)] == vehicle; });
+    for (int slot = stopped == watch.stopped_slots.end() ? -1 : *stopped; slot >= 0;) {
+        const int blocker = watch.waits_for[at(slot)];
+        members.push_back({watch.vehicle[at(slot)], watch.lane[at(slot)], watch.direct_cause[at(slot)],
+                           blocker < 0 ? -1 : watch.vehicle[at(blocker)]});
+        const auto is_listed = [&](const DeadlockMember& one) { return one.vehicle == members.back().waits_for; };
+        const bool is_stopped = std::count(watch.stopped_slots.begin(), watch.stopped_slots.end(), blocker) > 0;
+        if (!is_stopped || std::any_of(members.begin(), members.end(), is_listed)) break;
+        slot = blocker;
+    }
+    return members;
+}
+
+std::string deadlock_text(const Deadlock& deadlock, const std::vector<std::string>& lanes) {
+    const auto name = [&](int lane) { return lane < 0 ? std::string("an unknown lane") : lanes[at(lane)]; };
+    std::string text = fmt::format("vehicle {} has been inside the intersection on {} from {:.1f} s to {:.1f} s.\n",
+                                   deadlock.vehicle, name(deadlock.lane), deadlock.from_s, deadlock.to_s);
+    for (const DeadlockMember& member : deadlock.members) {
+        const char* const cause = kDelayCauseNames[static_cast<std::size_t>(member.cause)];
+        const std::string why = member.cause == DelayCause::none ? "" : fmt::format(" ({})", cause);
+        const std::string whom = member.waits_for < 0 ? "" : fmt::format(" for vehicle {}", member.waits_for);
+        text += fmt::format("  vehicle {} on {} waits{}{}\n", member.vehicle, name(member.lane), whom, why);
+    }
+    return text;
+}
+
+}  // namespace stopline

@@ -1,0 +1,55 @@
+// Deadlocks of a single intersection: a vehicle stays inside the intersection for two signal cycles longer than the
+// slowest unobstructed crossing takes.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/state/congestion_state.h"
+#include "sim/step/simulation.h"
+
+namespace stopline {
+
+// A vehicle of a deadlock, and what it waits for.
+struct DeadlockMember {
+    int vehicle = -1;                     // id
+    int lane = -1;                        // connection inside the intersection, or another lane
+    DelayCause cause = DelayCause::none;  // none: the vehicle waits only for the vehicle ahead, or it moves
+    int waits_for = -1;                   // id of the stopped vehicle for which it waits; -1: none
+};
+
+// The first deadlock of a run.
+struct Deadlock {
+    int vehicle = -1;     // id of the vehicle that stays too long
+    int lane = -1;        // connection of this vehicle
+    double from_s = 0.0;  // time at which it entered the intersection
+    double to_s = 0.0;    // time at which its stay became too long
+    // The vehicle that stays too long, the vehicle for which it waits, the vehicle for which this one waits, and so on.
+    // The last one waits for no stopped vehicle, or for one that is listed already. Empty: the first one never stopped.
+    std::vector<DeadlockMember> members = {};
+};
+
+// Finds the first deadlock of a run. The model must record delay causes (RulesPlan::watch_ticks).
+class DeadlockSearch {
+public:
+    // `limit_s`: shortest stay that counts as a deadlock.
+    DeadlockSearch(const Model& model, double limit_s);
+
+    // Call this function after each step.
+    void observe(const State& state);
+    const std::optional<Deadlock>& deadlock() const { return deadlock_; }
+
+private:
+    static std::vector<DeadlockMember> members_from(const DelayWatch& watch, int vehicle);
+
+    const Model& model_;
+    std::int64_t limit_ticks_;
+    std::optional<Deadlock> deadlock_;
+};
+
+// Describes a deadlock: the vehicle, the time, and which vehicle waits for which. `lanes`: the names of all lanes.
+std::string deadlock_text(const Deadlock& deadlock, const std::vector<std::string>& lanes);
+
+}  // namespace stopline

@@ -1,0 +1,73 @@
+// The text about a deadlock names the vehicles that wait for each other, and their places.
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include "runs/intersection/intersection.h"
+#include "scenario/load_scenario.h"
+
+namespace stopline {
+namespace {
+
+// Vehicles need longer to cross than the signal gives them: turns at 2 m/s, and 1 s between the greens.
+constexpr const char* kShortClearance = R"(
+fidelity: meso
+seed: 4
+duration: 150 s
+network:
+  kind: intersection
+  intersection:
+    lanes: [{movements: straight+left+right}]
+    approach_length: 60 m
+    exit_length: 20 m
+    radius: 12 m
+    turn_speed: 2 m/s
+signal: {first_green: 0 s, green: 5 s, yellow: 0 s, all_red: 1 s}
+measure: {warmup_cycles: 0}
+demand: {kind: saturated, left: 30 %, right: 10 %}
+vehicle: {base: petrol_eu4_72kw, length: 5 m}
+rules: {keep_clear: off}
+populations: [CDG]
+)";
+
+TEST(Deadlock, NamesTheVehiclesThatWaitForEachOther) {
+    const IntersectionReport report = run_intersections(parse_scenario(kShortClearance, "test.yaml"), {});
+    const IntersectionResult& result = report.populations[0];
+    EXPECT_EQ(result.violations.deadlocks, 1);
+    EXPECT_FALSE(report.no_violations());
+    ASSERT_TRUE(result.deadlock);
+    const Deadlock& deadlock = *result.deadlock;
+    // Two cycles of 12 s, and the crossing at 2 m/s.
+    EXPECT_GT(deadlock.to_s - deadlock.from_s, 24.0 + 24.0 / 2.0);
+    EXPECT_LE(deadlock.to_s - deadlock.from_s, result.longest_in_junction_s + 1e-9);
+    ASSERT_GE(deadlock.members.size(), 2U);
+    EXPECT_EQ(deadlock.members[0].vehicle, deadlock.vehicle);
+    EXPECT_EQ(deadlock.members[0].lane, deadlock.lane);
+    for (std::size_t k = 1; k < deadlock.members.size(); ++k)
+        EXPECT_EQ(deadlock.members[k].vehicle, deadlock.members[k - 1].waits_for);
+    // The last one waits for a vehicle that is listed already.
+    bool is_ring = false;
+    for (const DeadlockMember& member : deadlock.members)
+        is_ring = is_ring || member.vehicle == deadlock.members.back().waits_for;
+    EXPECT_TRUE(is_ring);
+    const std::string text = deadlock_text(deadlock, report.lanes);
+    EXPECT_EQ(text.find(fmt::format("vehicle {} has been inside the intersection on {} from {:.1f} s to {:.1f} s.\n",
+                                    deadlock.vehicle, report.lanes[static_cast<std::size_t>(deadlock.lane)],
+                                    deadlock.from_s, deadlock.to_s)),
+              0U)
+        << text;
+    EXPECT_NE(text.find(fmt::format("  vehicle {} on ", deadlock.members[1].vehicle)), std::string::npos) << text;
+    EXPECT_NE(text.find(fmt::format("waits for vehicle {} (junction_blocking)\n", deadlock.members[1].vehicle)),
+              std::string::npos)
+        << text;
+}
+
+TEST(Deadlock, IsAbsentWithTimeToClearTheIntersection) {
+    const Scenario scenario = parse_scenario(kShortClearance, "test.yaml", {"signal.all_red=15 s"});
+    const IntersectionReport report = run_intersections(scenario, {});
+    EXPECT_FALSE(report.populations[0].deadlock);
+    EXPECT_TRUE(report.no_violations());
+}
+
+}  // namespace
+}  // namespace stopline
