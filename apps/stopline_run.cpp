@@ -332,7 +332,21 @@ void check_files(const RunCliOptions& options, const Scenario& scenario, const s
         files.add_output(folder / options.trajectories_file, "--trajectories-file");
     }
     run_files.add_outputs(files);
-    if (!options.no_figures) run_files.refuse_names_of_figures(folder);
+    if (options.no_figures) return;
+    run_files.refuse_names_of_figures(folder);
+    if (options.trajectories) {
+        refuse_name_of_figure("--trajectories-file", folder / options.trajectories_file, folder);
+    }
+}
+
+// Throws InputError if no output of the run uses the options --record-from and --record-until.
+void refuse_unused_window(const RunCliOptions& options, bool streams_trajectories) {
+    const RunFilesOptions defaults;
+    const bool has_window = options.files.from != defaults.from || options.files.until != defaults.until;
+    if (!has_window || streams_trajectories || !options.files.record.empty() || !options.files.fcd.empty()) return;
+    throw InputError(
+        "--record-from and --record-until have no effect on --trajectories here; only the trajectories of a network "
+        "have a window");
 }
 
 ExitCode run(const RunCliOptions& options) {
@@ -352,6 +366,7 @@ ExitCode run(const RunCliOptions& options) {
     }
     const double interval_s = trajectory_interval_s(options, scenario);
     const std::filesystem::path folder = options.common.output.empty() ? "out/" + scenario.name : options.common.output;
+    refuse_unused_window(options, reporter_of(scenario).streams_trajectories);
     RunFilesOptions files = options.files;
     files.column_names = column_names(options.common);
     const Reporter& reporter = reporter_of(scenario);

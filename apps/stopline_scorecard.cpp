@@ -108,11 +108,12 @@ void write_results_page(const ScorecardCliOptions& options, const Scorecard& sco
     write_file(options.markdown, results_markdown(scorecard, command, append ? read_file(findings) : ""));
 }
 
-// Adds all scenarios and data files to the inputs, except the results page, which the command may write again.
+// Adds all scenarios and data files to the inputs, except the results that the command may write again.
 void add_shipped_inputs(CommandFiles& files) {
     for (const std::filesystem::path& folder : {data_directory(), scenario_directory()}) {
         for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-            if (entry.is_regular_file() && entry.path().filename() != "RESULTS.md") {
+            const std::string name = entry.path().filename();
+            if (entry.is_regular_file() && name != "RESULTS.md" && !name.starts_with("scorecard.")) {
                 files.add_input(entry.path(), "the shipped data");
             }
         }

@@ -41,9 +41,11 @@ extern "C" void on_interrupt(int signal) {
     }
 }
 
-// The reader of a pipe has closed it. The write fails in addition, so a repetition of the signal needs no action.
+// The reader of standard output has closed its pipe. The write fails as well, so later signals can be ignored.
 extern "C" void on_closed_pipe(int signal) {
-    if (interrupt_signal == 0) interrupt_signal = signal;
+    if (interrupt_signal != 0) return;
+    interrupt_signal = signal;
+    interrupt_time_s = monotonic_time_s();
 }
 
 void install_signal_handlers() {
@@ -120,7 +122,7 @@ bool interrupted() { return interrupt_signal != 0; }
 
 void end_at_once_on_termination() {
     std::signal(SIGTERM, SIG_DFL);
-    std::signal(SIGHUP, SIG_DFL);
+    if (std::signal(SIGHUP, SIG_DFL) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // as in install_signal_handlers()
 }
 
 void set_input_name(const std::string& name) { input_name() = name; }

@@ -156,16 +156,17 @@ void RunFiles::add_outputs(CommandFiles& files) const {
     }
 }
 
-void RunFiles::refuse_names_of_figures(const std::filesystem::path& folder) const {
+void refuse_name_of_figure(const std::string& option, const std::filesystem::path& file,
+                           const std::filesystem::path& folder) {
     constexpr std::array kEndings{".svg", ".png", ".gp", ".dat"};
-    for (const FileKind& kind : kinds_) {
-        const std::filesystem::path file(kind.path);
-        const bool is_beside = resolved_path(file).parent_path() == resolved_path(folder);
-        if (!is_beside || std::find(kEndings.begin(), kEndings.end(), file.extension()) == kEndings.end()) continue;
-        throw InputError(
-            fmt::format("{}: figures in the folder of --output can have the name '{}'; give another ending",
-                        kind.option, kind.path));
-    }
+    const bool is_beside = resolved_path(file).parent_path() == resolved_path(folder);
+    if (!is_beside || std::find(kEndings.begin(), kEndings.end(), file.extension()) == kEndings.end()) return;
+    throw InputError(fmt::format("{}: a figure in the folder of --output could overwrite '{}'; give another ending",
+                                 option, file.string()));
+}
+
+void RunFiles::refuse_names_of_figures(const std::filesystem::path& folder) const {
+    for (const FileKind& kind : kinds_) refuse_name_of_figure(kind.option, kind.path, folder);
 }
 
 void RunFiles::prepare() const {

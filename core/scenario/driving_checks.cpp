@@ -100,12 +100,12 @@ void check_lags(const DrivenVehicle& driven, Checker& check) {
                                              *std::max_element(car.lag_gear_factor.begin(), car.lag_gear_factor.end()));
 }
 
-// Returns by how much a vehicle of the component can drive beyond the place where it wants to stop, m.
+// Returns the largest distance in m by which a vehicle of the component drives beyond the place where it wants to stop.
 //
 // Mesoscale mode: before a stop with the remaining distance r, the speed of the next step is
 //     v(r) = sqrt((b tau)^2 + 2 b r) - b tau
-// with the deceleration b and the reaction time tau of the model. The vehicle drives v(r) dt in the step, which exceeds
-// r by at most b (dt - tau)^2 / 2 if the step dt is longer than tau; otherwise it does not.
+// with the deceleration b and the reaction time tau of the model. The vehicle drives v(r) dt in the step dt.
+// If dt > tau, this distance exceeds r by at most b (dt - tau)^2 / 2. If dt <= tau, the vehicle stops in time.
 double stop_overshoot_m(const Scenario& scenario, const PopulationSettings::Component& component) {
     const auto policy = std::find_if(scenario.policies.begin(), scenario.policies.end(),
                                      [&](const GapPolicySettings& one) { return one.name == component.policy; });
@@ -127,8 +127,8 @@ void check_stop_margins(const Scenario& scenario, const DriverSettings& driver, 
     const auto compare = [&](const std::string& name, double margin_m) {
         if (margin_m >= min_m - kRounding) return;
         check.error(field + name,
-                    fmt::format("value {} is too small: with meso.step = {} vehicles can stop {} too "
-                                "late: at least {}, or a shorter step",
+                    fmt::format("value {} is too small: with meso.step = {}, vehicles can stop {} too "
+                                "late. Give at least {}, or a shorter step",
                                 short_text(margin_m, unit("m")), short_text(scenario.meso.step_s, unit("s")),
                                 short_text(overshoot_m, unit("m")), short_text(min_m, unit("m"))));
     };

@@ -59,11 +59,13 @@ void apply_overrides(SourceNode& root, const std::vector<std::string>& overrides
             report.error(place_of_override(text, directory),
                          both_names_error(first == current ? written : first, current));
         }
-        for (const auto& [earlier_path, earlier] : applied) {
-            if (first != written || earlier == text || !replaces(path, earlier_path)) continue;
+        std::erase_if(applied, [&](const auto& one) {
+            const auto& [earlier_path, earlier] = one;
+            if (first != written || earlier == text || !replaces(path, earlier_path)) return false;
             report.warn(place_of_override(earlier, directory),
                         "has no effect, because the later --set '" + shortened(text) + "' replaces it");
-        }
+            return true;
+        });
         applied.emplace_back(path, text);
     }
 }

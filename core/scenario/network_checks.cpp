@@ -150,10 +150,10 @@ void check_stop_detector(const Scenario& scenario, Checker& check) {
         const double length_m = vehicle_of(scenario, *component).length_m;
         if (detector_m >= front_m - kRounding_m && detector_m <= front_m + length_m + kRounding_m) continue;
         return check.error("signal.stop_detector",
-                           "value " + metres(detector_m) + ": a vehicle of " + metres(length_m) + " that waits " +
-                               metres(front_m) + " before the stop line (driver.stop.margin) does not stand on the " +
-                               "detector, so it calls no green: " + metres(front_m) + " to " +
-                               metres(front_m + length_m) + " for this vehicle");
+                           "value " + metres(detector_m) +
+                               ": a vehicle that waits at the stop line is not on the detector and gets no " +
+                               "green. For a vehicle of " + metres(length_m) + " with driver.stop.margin = " +
+                               metres(front_m) + ", give " + metres(front_m) + " to " + metres(front_m + length_m));
     }
 }
 

@@ -48,8 +48,7 @@ std::vector<double> searched_offsets_s(double start_s, double cycle_s, int count
 // Returns the sweep of the search for one population.
 SweepSettings search_settings(const Scenario& scenario, const PopulationTiming& start, const SearchOptions& options,
                               const TimingOptions& timing);
-// Returns the overrides of the sweep: those of the options, but for the fields that the search varies or
-// sets itself.
+// Returns the overrides of the sweep: those of the options, except the fields that the search varies or sets itself.
 std::vector<std::string> search_overrides(const Scenario& scenario, const std::string& population,
                                           const SearchOptions& options);
 

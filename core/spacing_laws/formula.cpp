@@ -54,7 +54,7 @@ using Dimension = FormulaDimension;
 
 constexpr int kMaxDepth = 50;  // of nested parentheses and functions
 constexpr std::size_t kMaxLength = 1000;
-constexpr int kMaxUnitExponent = 100;  // of a power; such as 4 in m4
+constexpr int kMaxUnitExponent = 100;  // largest exponent of a unit, such as 4 in m4
 constexpr Dimension kLength{1, 0};
 
 std::string power_text(const char* base, int exponent) {

@@ -150,6 +150,11 @@ private:
                 end.point,
                 {end.point.x_m + kMinConnection_m * end.cosine, end.point.y_m + kMinConnection_m * end.sine}};
         }
+        if (connection.shape.size() > kSumoPointsMax) {
+            throw InputError(
+                fmt::format("{}: the path from edge '{}' to edge '{}' has {} points; at most {} are allowed", c.where,
+                            edge(c.from).id, edge(c.to).id, connection.shape.size(), kSumoPointsMax));
+        }
         if (const double length = length_m(connection.shape); length > kSumoConnectionLengthMax_m) {
             throw InputError(
                 fmt::format("{}: the path from edge '{}' to edge '{}' is {:.0f} m long; at most {:.0f} m "

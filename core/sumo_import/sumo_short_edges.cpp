@@ -113,7 +113,7 @@ private:
         replace_connections(before, edge, std::move(new_connections));
     }
 
-    // Records that the lane `first` now continues along the lanes `parts`.
+    // Appends the names and lengths of the lanes `parts` to those of the merged lane `first`.
     void add_merged_lanes(const LaneId& first, const std::vector<LaneId>& parts) {
         std::vector<std::pair<std::string, double>>& merged =
             net_.edges[at(first.first)].lanes[at(first.second)].merged_lanes;

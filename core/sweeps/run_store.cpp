@@ -16,7 +16,7 @@ namespace stopline {
 
 namespace {
 
-// Stores of another format are refused. Version 1 had no checksums.
+// Stores of another format are refused.
 constexpr std::string_view kFormat = "stopline runs 2";
 constexpr const char* kChecksumRow = "checksum";
 constexpr std::string_view kFormatOfAnyVersion = "stopline runs ";
@@ -63,7 +63,8 @@ std::string reason(int code, sqlite3* database) {
     const int kind = code & 0xff;
     if (kind == SQLITE_BUSY || kind == SQLITE_LOCKED) return "another program has this store open; wait until it ends";
     if (kind == SQLITE_NOTADB || kind == SQLITE_CORRUPT)
-        return "the file is not a store of stopline-sweep, or it is damaged. Remove it and repeat the command";
+        return "the file is not a store of stopline-sweep, or it is damaged. Check the path. If it is a damaged store, "
+               "remove it and repeat the sweep";
     if (kind == SQLITE_FULL) return "cannot write: the disk is full";
     if (kind == SQLITE_READONLY || kind == SQLITE_CANTOPEN || kind == SQLITE_PERM || kind == SQLITE_IOERR) {
         return fmt::format(
@@ -168,10 +169,8 @@ void RunStore::fail(int code) const {
 }
 
 void RunStore::fail_damaged(const std::string& damage) const {
-    throw InputError(
-        fmt::format("{}: the store is damaged: {}. Its runs cannot be trusted: remove the file and repeat the command, "
-                    "which then executes all runs again",
-                    file_.string(), damage));
+    throw InputError(fmt::format("{}: the store is damaged: {}. Remove the file and repeat the sweep that wrote it",
+                                 file_.string(), damage));
 }
 
 void RunStore::execute(const char* sql) const {

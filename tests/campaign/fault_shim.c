@@ -35,7 +35,9 @@ static int chosen(const char* call) {
 
 static int below_folder(const char* path) {
     const char* folder = getenv("FAULT_FOLDER");
-    return folder != NULL && path != NULL && strncmp(path, folder, strlen(folder)) == 0;
+    if (folder == NULL || path == NULL || strncmp(path, folder, strlen(folder)) != 0) return 0;
+    char next = path[strlen(folder)];
+    return next == '/' || next == '\0';
 }
 
 static int path_concerned(const char* path) {

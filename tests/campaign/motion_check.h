@@ -85,7 +85,7 @@ private:
     }
 
     // A vehicle that has left a lane can have its rear on it. The first vehicle of the lane must stay behind this rear,
-    // even if it takes another way.
+    // even if its route leads to another lane.
     void check_rears_downstream(const Model& model, const State& state, int lane) {
         const VehicleArrays& v = state.vehicles;
         const int first = state.blocks[at(lane)].first;

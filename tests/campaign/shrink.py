@@ -93,7 +93,9 @@ class Shrinking:
         return self.accept({**self.case, "scenario": scenario})
 
     def drop_entries(self):
-        changed = [self.accept_scenario(without(self.case["scenario"], path)) for path in places(self.case["scenario"])]
+        """Leaves out fields and entries of lists. Shares stay, because with_full_shares() sets them."""
+        changed = [self.accept_scenario(without(self.case["scenario"], path))
+                   for path in places(self.case["scenario"]) if path[-1] != "share"]  # fmt: skip
         return any(changed)
 
     def simplify_numbers(self):

@@ -33,6 +33,22 @@ class Shrinking(unittest.TestCase):
         self.assertLess(float(result["signal"]["green"].split()[0]), 20)
         self.assertEqual(result["populations"][0]["components"], [{"policy": "CTG-Ref", "share": "100 %"}])
 
+    def test_keeps_the_shares_of_components(self):
+        components = [{"policy": policy, "share": share} for policy, share in
+                      (("CDG", "34 %"), ("CTG-Ref", "33 %"), ("SWITCH-1", "33 %"))]  # fmt: skip
+        case = {"scenario": {"populations": [{"name": "X", "components": components}]}, "files": {}}
+
+        def still_fails(smaller):
+            populations = smaller["scenario"].get("populations", [])
+            policies = [one.get("policy") for population in populations for one in population.get("components", [])]
+            return "CDG" in policies and "SWITCH-1" in policies
+
+        result = shrink.shrunk(case, still_fails)["scenario"]
+        self.assertEqual(
+            result["populations"][0]["components"],
+            [{"policy": "CDG", "share": "67 %"}, {"policy": "SWITCH-1", "share": "33 %"}],
+        )
+
     def test_leaves_out_lines_of_route_files(self):
         lines = [f'<trip id="{k}"/>' for k in range(20)]
         case = {"scenario": {}, "files": {"a.rou.xml": "\n".join(["<routes>", *lines, "</routes>"]) + "\n"}}

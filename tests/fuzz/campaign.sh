@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs all fuzz targets, one after the other, and ends with a table.
-#   tests/fuzz/campaign.sh MINUTES       builds the targets twice and runs them for so long in total
+#   tests/fuzz/campaign.sh MINUTES       builds the targets twice and runs all of them for MINUTES in total
 #   tests/fuzz/campaign.sh --short BUILD runs each target of a build folder for some seconds, as a test
 #
 # A campaign uses two builds:
@@ -63,6 +63,8 @@ fuzz() {
     set_limits "$build"
     set_length "$target"
     local begin=$SECONDS
+    local begin_mark
+    begin_mark="$(mktemp)"
     stop=$((SECONDS + seconds))
     while left=$((stop - SECONDS)) && ((left > 0)); do
         nice -n "$priority" "$build/fuzz/fuzz_$target" -max_total_time="$left" -max_len="$max_len" "${dictionary[@]}" \
@@ -79,10 +81,11 @@ fuzz() {
         fi
     done
     spent=$((SECONDS - begin))
-    number="$(find "$findings" -name "$target-*" | wc -l)"
+    number="$(find "$findings" -name "$target-*" -newer "$begin_mark" | wc -l)"
     printf '%-16s %-10s %13d %8d %10d %10d %8d %9d\n' "$target" "$(basename "$build")" "$runs" "$spent" \
         "$((runs / (spent > 0 ? spent : 1)))" "$coverage" "$peak" "$number" >>"$table"
-    rm -f "$log"
+    rm -f "$log" "$begin_mark"
+    all_findings=$((all_findings + number))
 }
 
 print_table() {
@@ -92,6 +95,7 @@ print_table() {
 
 export ASAN_OPTIONS=quarantine_size_mb=32:detect_stack_use_after_return=1
 export UBSAN_OPTIONS=print_stacktrace=1
+all_findings=0
 table="$(mktemp)"
 work="$(mktemp -d)"
 trap 'rm -rf "$table" "$work"' EXIT
@@ -130,3 +134,7 @@ for target in "${targets[@]}"; do
     done
 done
 print_table
+if ((all_findings > 0)); then
+    echo "tests/fuzz/campaign.sh: inputs that break a rule are in build/fuzz/findings" >&2
+    exit 1
+fi

@@ -228,13 +228,14 @@ TEST(StopDetector, LiesBelowTheFirstVehicleOfAQueue) {
     EXPECT_EQ(error({}), "");
     EXPECT_EQ(error({"signal.stop_detector=1 m"}), "");
     EXPECT_EQ(error({"signal.stop_detector=6.1 m"}), "");
-    EXPECT_TRUE(contains(error({"signal.stop_detector=6.2 m"}),
-                         "field 'signal.stop_detector': value 6.2 m: a vehicle of 5.15 m that waits 1 m before the "
-                         "stop line (driver.stop.margin) does not stand on the detector, so it calls no green: 1 m to "
-                         "6.15 m for this vehicle"));
-    EXPECT_TRUE(contains(error({"signal.stop_detector=0.9 m"}), "1 m to 6.15 m for this vehicle"));
-    EXPECT_TRUE(contains(error({"vehicle.length=0.5 m"}), "value 3 m: a vehicle of 0.5 m"));
-    EXPECT_TRUE(contains(error({"driver.stop.margin=4 m"}), "that waits 4 m before the stop line"));
+    EXPECT_TRUE(
+        contains(error({"signal.stop_detector=6.2 m"}),
+                 "field 'signal.stop_detector': value 6.2 m: a vehicle that waits at the stop line is not on the "
+                 "detector and gets no green. For a vehicle of 5.15 m with driver.stop.margin = 1 m, give 1 m "
+                 "to 6.15 m"));
+    EXPECT_TRUE(contains(error({"signal.stop_detector=0.9 m"}), "give 1 m to 6.15 m"));
+    EXPECT_TRUE(contains(error({"vehicle.length=0.5 m"}), "For a vehicle of 0.5 m"));
+    EXPECT_TRUE(contains(error({"driver.stop.margin=4 m"}), "with driver.stop.margin = 4 m"));
     // The controller fixed_time has no detectors.
     EXPECT_EQ(error({"signal.controller=fixed_time", "vehicle.length=0.5 m"}), "");
 }

@@ -1,5 +1,5 @@
-// However short the critical gap of a driver is, a vehicle with priority must be able to stop. The campaign of random
-// scenarios (tests/campaign) found this: with a critical gap of 0 s, vehicles turned left right before oncoming ones.
+// However short the critical gap of a driver is, a vehicle with priority must be able to stop. With a critical gap of
+// 0 s, left-turning vehicles must not enter directly in front of oncoming vehicles.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>

@@ -1,6 +1,5 @@
 // In the mesoscale mode, a lane sleeps while its first vehicle rests at a red signal. The scalar kernels let no lane
-// sleep. Both must give the same bits. The campaign of random scenarios (tests/campaign) found these runs: the first
-// vehicle of a sleeping lane saw a leader that had left long before.
+// sleep. Both must give the same bits. In these runs, the leader of the first vehicle leaves while the lane sleeps.
 #include <gtest/gtest.h>
 
 #include <string>

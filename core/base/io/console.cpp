@@ -1,6 +1,7 @@
 #include "base/io/console.h"
 
 #include <fcntl.h>
+#include <signal.h>  // declares the POSIX functions for signal masks
 #include <unistd.h>
 
 #include <cerrno>
@@ -16,6 +17,18 @@ void open_closed_streams() {
     }
 }
 
-void write_message(const std::string& text) { static_cast<void>(std::fputs(text.c_str(), stderr)); }
+// If the reader of standard error has closed its pipe, the write raises SIGPIPE in this thread. The signal is blocked
+// during the write and then taken away, so that the program goes on.
+void write_message(const std::string& text) {
+    sigset_t closed_pipe;
+    sigset_t before;
+    sigemptyset(&closed_pipe);
+    sigaddset(&closed_pipe, SIGPIPE);
+    pthread_sigmask(SIG_BLOCK, &closed_pipe, &before);
+    static_cast<void>(std::fputs(text.c_str(), stderr));
+    const timespec no_wait{};
+    static_cast<void>(sigtimedwait(&closed_pipe, nullptr, &no_wait));
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
 
 }  // namespace stopline

@@ -37,15 +37,16 @@ void prepare_output_file(const fs::path& file) {
     if (!file.has_filename()) {
         throw InputError(fmt::format("'{}' is a folder; add the name of a file to it", file.string()));
     }
-    prepare_folder(file.has_parent_path() ? file.parent_path() : ".");
     std::error_code ignored;
     const fs::file_status status = fs::status(file, ignored);
     if (fs::is_directory(status)) fail(file, "cannot write", EISDIR);
-    if (!fs::exists(status) || fs::is_regular_file(status)) {
-        const ReplacedFile trial(file);              // its destructor removes the temporary file
-    } else if (::access(file.c_str(), W_OK) != 0) {  // opening a pipe would wait for its reader
-        fail(file, "cannot write", errno);
+    if (fs::exists(status) && !fs::is_regular_file(status)) {  // a device or a pipe
+        // The file is not opened, because opening a pipe would wait for its reader.
+        if (::access(file.c_str(), W_OK) != 0) fail(file, "cannot write", errno);
+        return;
     }
+    prepare_folder(file.has_parent_path() ? file.parent_path() : ".");
+    const ReplacedFile trial(file);  // its destructor removes the temporary file
 }
 
 void write_file(const fs::path& file, std::string_view text) {

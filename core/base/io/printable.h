@@ -15,8 +15,8 @@ std::size_t utf8_length(std::string_view text, std::size_t i);
 // that are not UTF-8. Line breaks and tabs are harmless.
 bool has_control_characters(std::string_view text);
 
-// Returns the text with the bytes of such characters written as \x1B. A name from a file thus cannot move the cursor,
-// change colours or hide a part of a message.
+// Replaces each byte of such characters by its hexadecimal code, such as \x1B. A name from a file thus cannot move the
+// cursor, change colours or hide a part of a message.
 std::string printable_text(std::string_view text);
 
 }  // namespace stopline

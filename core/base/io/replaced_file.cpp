@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cstdint>
+#include <fstream>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -31,12 +32,18 @@ constexpr std::array<std::string_view, 3> kDatabaseSuffixes{"-wal", "-journal", 
     throw InputError(fmt::format("{}: cannot write: {}", path.string(), std::generic_category().message(error)));
 }
 
-// Returns a text that stands for this machine in the names of temporary files.
+// Returns a text that stands for this machine in the names of temporary files. Machines and containers can have the
+// same host name, so the text also depends on the start of the operating system and on the container.
 std::string machine_text() {
     std::array<char, 256> name{};
     static_cast<void>(::gethostname(name.data(), name.size() - 1));
+    std::string machine(name.data());
+    std::string start;
+    std::getline(std::ifstream("/proc/sys/kernel/random/boot_id"), start);
+    std::error_code ignored;
+    machine += start + fs::read_symlink("/proc/self/ns/pid", ignored).string();
     std::uint32_t hash = 0x811c9dc5U;  // FNV-1a, 32 bits
-    for (const char* c = name.data(); *c != '\0'; ++c) hash = (hash ^ static_cast<unsigned char>(*c)) * 0x01000193U;
+    for (const char c : machine) hash = (hash ^ static_cast<unsigned char>(c)) * 0x01000193U;
     return fmt::format("{:08x}", hash);
 }
 

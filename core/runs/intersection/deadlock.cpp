@@ -9,12 +9,31 @@
 
 namespace stopline {
 
+namespace {
+
+// Returns the id of the vehicle that occupies a connection since a tick; -1: none. The list of occupants holds the slots
+// at the start of the step. During the step, vehicles may have got other slots, so their lanes are searched.
+int vehicle_since(const State& state, int connection, std::int64_t tick) {
+    const LanePlan& plan = state.plan.lane(connection);
+    for (const int lane : {connection, plan.exit, plan.origin}) {
+        if (lane < 0) continue;
+        const LaneBlock& block = state.blocks[at(lane)];
+        for (int slot = block.first; slot < block.past_last(); ++slot) {
+            if (state.vehicles.record[at(slot)].junction_entry_tick == tick) return state.vehicles.id[at(slot)];
+        }
+    }
+    return -1;
+}
+
+}  // namespace
+
 DeadlockSearch::DeadlockSearch(const Model& model, double limit_s)
     : model_(model), limit_ticks_(static_cast<std::int64_t>(std::ceil(limit_s / model.step_s - 1e-9))) {}
 
 void DeadlockSearch::observe(const State& state) {
     if (deadlock_) {
-        // The vehicle may have crawled when the deadlock was found. It then has members as soon as it is seen stopped.
+        // The vehicle may have been moving slowly when the deadlock was found. The members are listed as soon as the
+        // delay watch finds it stopped.
         if (deadlock_->members.empty()) deadlock_->members = members_from(state.congestion.watch, deadlock_->vehicle);
         return;
     }
@@ -26,10 +45,10 @@ void DeadlockSearch::observe(const State& state) {
         for (const JunctionOccupant& occupant : state.junctions.occupants[lane]) {
             if (occupant.since >= earliest_tick) continue;
             earliest_tick = occupant.since;
-            found.vehicle = state.vehicles.id[at(occupant.slot)];
             found.lane = static_cast<int>(lane);
         }
     }
+    if (found.lane >= 0) found.vehicle = vehicle_since(state, found.lane, earliest_tick);
     found.from_s = model_.time_s(earliest_tick);
     found.members = members_from(state.congestion.watch, found.vehicle);
     deadlock_ = found;

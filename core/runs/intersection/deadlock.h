@@ -26,8 +26,8 @@ struct Deadlock {
     int lane = -1;        // connection of this vehicle
     double from_s = 0.0;  // time at which it entered the intersection
     double to_s = 0.0;    // time at which its stay became too long
-    // The vehicle that stays too long, the vehicle for which it waits, the vehicle for which this one waits, and so on.
-    // The last one waits for no stopped vehicle, or for one that is listed already. Empty: the first one never stopped.
+    // A chain of waiting vehicles. The first one is `vehicle`, and each one waits for the next one. The last one waits
+    // for no stopped vehicle, or for one that is in the chain already. Empty: `vehicle` has not stopped.
     std::vector<DeadlockMember> members = {};
 };
 

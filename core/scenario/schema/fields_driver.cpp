@@ -185,8 +185,8 @@ const Table& give_way_table() {
         "yielding inside intersections",
         {
             number<&S::critical_gap_s>("critical_gap", "s", {0, 60},
-                                       "shortest accepted time to the next vehicle with priority; never so "
-                                       "short that this vehicle could not stop in an emergency"),
+                                       "shortest accepted time to the next vehicle with priority; except in SUMO "
+                                       "networks, at least the time that this vehicle needs for an emergency stop"),
             number<&S::margin_m>("margin", "m", {0, 10},
                                  "distance from the front of a waiting vehicle to the conflict area"),
             number<&S::approach_acceleration_mps2>(

@@ -228,8 +228,8 @@ void refuse_many_open_brackets(std::string_view text, const std::shared_ptr<cons
         if (c == '[' || c == '{') ++open;
         if ((c == ']' || c == '}') && open > 0) --open;
         if (open > kYamlOpenBracketsMax) {
-            fail(place, "nested more than " + std::to_string(kYamlDepthMax) + " levels deep: " + std::to_string(open) +
-                            " brackets are open");
+            fail(place, "more than " + std::to_string(kYamlOpenBracketsMax) +
+                            " brackets are open here (those in comments and quotes count too)");
         }
     }
 }

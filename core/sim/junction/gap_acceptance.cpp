@@ -62,8 +62,8 @@ double emergency_stop_gap_s(const Model& model, const State& state, const Confli
 
 // Returns the earliest arrival time of the next vehicle with priority, in s from now, at which candidate `v` still
 // accepts the gap. `wait_m`: waiting position of the candidate. If the network is not imported (its demand has no
-// trips), the critical gap begins when the candidate reaches `wait_m`. However short it is, the next vehicle with
-// priority must be able to stop.
+// trips), the critical gap begins when the candidate reaches `wait_m`. The critical gap is at least the
+// gap that the next vehicle with priority needs for an emergency stop.
 // In imported networks the gap begins when the previous vehicle with priority has reached the area, as in the Highway
 // Capacity Manual. The critical gap then holds for a vehicle that starts from rest at `wait_m`. If the candidate passes
 // the area later or earlier than such a vehicle, the difference is added or subtracted. `has_begun`: the candidate is

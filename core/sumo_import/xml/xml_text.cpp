@@ -84,14 +84,12 @@ private:
     bool is_at_end() const { return rest().find_first_not_of('\0') == std::string_view::npos; }
 
     void unpack_member() {
-        constexpr std::size_t kChunk = std::size_t{1} << 18U;
         for (int state = Z_OK; state != Z_STREAM_END;) {
             const std::size_t before = text_.size();
-            text_.resize(before + kChunk);
-            stream_.next_out = reinterpret_cast<Bytef*>(text_.data() + before);
-            stream_.avail_out = static_cast<uInt>(kChunk);
+            stream_.next_out = reinterpret_cast<Bytef*>(chunk_.data());
+            stream_.avail_out = static_cast<uInt>(chunk_.size());
             state = inflate(&stream_, Z_NO_FLUSH);
-            text_.resize(text_.size() - stream_.avail_out);
+            text_.append(chunk_, 0, chunk_.size() - stream_.avail_out);
             if (state == Z_MEM_ERROR) throw std::bad_alloc();
             if (state != Z_OK && state != Z_STREAM_END) throw_damaged();
             if (text_.size() >= kXmlBytesMax) throw_too_long(name_);
@@ -112,6 +110,7 @@ private:
 
     std::string_view packed_;
     const std::string& name_;
+    std::string chunk_ = std::string(std::size_t{1} << 18U, '\0');  // unpacked bytes of one call of zlib
     z_stream stream_{};
     std::string text_;
     std::size_t memory_ = 0;

@@ -45,8 +45,11 @@ refused "would overwrite 'X.CDG' (--fcd)" run one.yaml --no-figures --fcd X --tr
 refused "(--trajectories-file) would overwrite 'out/one/summary.csv' (a table in the folder of --output)" \
     run one.yaml "${one[@]}" --trajectories --trajectories-file summary.csv
 refused "(a table in the folder of --output)" run one.yaml "${one[@]}" --output r --fcd r/one.provenance.json
-refused "figures in the folder of --output can have the name 'r/platoon.svg'" \
+refused "a figure in the folder of --output could overwrite 'r/platoon.svg'" \
     run one.yaml --set 'populations=[CDG]' --set measure.baseline=CDG --output r --fcd r/platoon.svg
+refused "a figure in the folder of --output could overwrite 'out/one/counters.svg'" \
+    run one.yaml --set 'populations=[CDG]' --set measure.baseline=CDG --trajectories --trajectories-file counters.svg
+refused "have no effect on --trajectories here" run one.yaml "${one[@]}" --trajectories --record-from '10 s'
 refused "would overwrite 's/scorecard.csv'" scorecard --output s --markdown s/scorecard.csv
 "$STOPLINE_BIN/stopline-run" one.yaml "${one[@]}" --fcd /dev/null --tripinfo /dev/null --output null >/dev/null ||
     fail "two outputs to /dev/null: exit code $?"

@@ -67,6 +67,15 @@ wait $pid || code=$?
 grep -q "of 16 runs are stored; the same command continues" "$work/stderr" || fail "SIGTERM during a sweep: $(cat "$work/stderr")"
 [ -e "$work/swept/sweep.sqlite-wal" ] && fail "SIGTERM during a sweep: the store was not closed"
 
+# A message to a closed pipe does not end the program.
+{
+    sleep 1
+    "$run" "$scenario" --set "signal.green=10 s" --set "signal.green=11 s" --no-figures --output "$work/pipe" 2>&1 >/dev/null
+    echo $? >"$work/code"
+} | { exec <&-; sleep 1; }
+wait_for [ -s "$work/code" ] || fail "the program did not end"
+[ "$(cat "$work/code")" -eq 0 ] || fail "a message to a closed pipe: exit code $(cat "$work/code")"
+
 # A program that nohup starts ignores SIGHUP.
 (
     trap '' HUP

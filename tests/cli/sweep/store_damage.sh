@@ -64,7 +64,7 @@ for kind in cut flip result; do
     echo "$kind of $size bytes: $same times the same table, $refused times refused"
 done
 [ "$refused" -eq 60 ] || fail "a changed result was accepted $same times"
-grep -qE "damaged: .*remove the file and repeat the command" "$work/stderr" || fail "no advice: $(cat "$work/stderr")"
+grep -qE "damaged: .*Remove the file and repeat the sweep that wrote it" "$work/stderr" || fail "no advice: $(cat "$work/stderr")"
 
 # A damaged part of a sweep is not joined.
 code=0
