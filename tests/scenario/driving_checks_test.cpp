@@ -108,8 +108,8 @@ TEST(DrivingChecks, MarginsCoverTheStepsOfAStop) {
     EXPECT_EQ(with({"meso.step=0.5 s"}), "");
     EXPECT_EQ(with({"meso.step=0.5 s", "driver.stop.margin=0.313 m"}), "");
     EXPECT_TRUE(contains(with({"meso.step=0.5 s", "driver.stop.margin=0.31 m"}),
-                         "field 'driver.stop.margin': value 0.31 m is too small: with meso.step = 0.5 s vehicles can "
-                         "stop 0.3112844 m too late: at least 0.313 m, or a shorter step"));
+                         "field 'driver.stop.margin': value 0.31 m is too small: with meso.step = 0.5 s, vehicles can "
+                         "stop 0.3112844 m too late. Give at least 0.313 m, or a shorter step"));
     EXPECT_TRUE(contains(with({"meso.step=0.5 s", "driver.give_way.margin=0.2 m"}), "field 'driver.give_way.margin'"));
     EXPECT_EQ(with({"driver.give_way.margin=0.014 m"}), "");
     EXPECT_TRUE(contains(with({"driver.give_way.margin=0 m"}), "at least 0.014 m"));

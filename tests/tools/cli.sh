@@ -44,12 +44,14 @@ wait_for() {
     done
 }
 
-# machine_number: prints the number of this machine in the names of partial files, a hash of its name (FNV-1a)
+# machine_number: prints the number of this machine in the names of partial files: a hash (FNV-1a) of its name, the number of
+# its start and the number of the container
 machine_number() {
     python3 -c '
-import socket
+import os, pathlib, socket
+start = pathlib.Path("/proc/sys/kernel/random/boot_id").read_text().strip()
 number = 0x811c9dc5
-for byte in socket.gethostname().encode():
+for byte in (socket.gethostname() + start + os.readlink("/proc/self/ns/pid")).encode():
     number = (number ^ byte) * 0x01000193 & 0xffffffff
 print(f"{number:08x}")'
 }

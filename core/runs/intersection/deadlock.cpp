@@ -11,8 +11,8 @@ namespace stopline {
 
 namespace {
 
-// Returns the id of the vehicle that occupies a connection since a tick; -1: none. The list of occupants holds the slots
-// at the start of the step. During the step, vehicles may have got other slots, so their lanes are searched.
+// Returns the id of the vehicle that has been on a connection since a tick; -1: none. The list of occupants holds the
+// slots at the start of the step. During the step, vehicles may have got other slots, so their lanes are searched.
 int vehicle_since(const State& state, int connection, std::int64_t tick) {
     const LanePlan& plan = state.plan.lane(connection);
     for (const int lane : {connection, plan.exit, plan.origin}) {

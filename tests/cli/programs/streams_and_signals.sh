@@ -70,7 +70,7 @@ grep -q "of 16 runs are stored; the same command continues" "$work/stderr" || fa
 # A message to a closed pipe does not end the program.
 {
     sleep 1
-    "$run" "$scenario" --set "signal.green=10 s" --set "signal.green=11 s" --no-figures --output "$work/pipe" 2>&1 >/dev/null
+    "$run" "$scenario" --set seed=1 --set seed=2 --no-figures --output "$work/pipe" 2>&1 >/dev/null
     echo $? >"$work/code"
 } | { exec <&-; sleep 1; }
 wait_for [ -s "$work/code" ] || fail "the program did not end"

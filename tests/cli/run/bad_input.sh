@@ -83,7 +83,8 @@ for i in 1 2 3 4 5 6 7 8 9; do
     laughs+="a$i: &a$i [$below, $below, $below, $below, $below, $below, $below, $below, $below, $below]\n"
 done
 refused_text "billion laughs" "$laughs" "more than 200000 values"
-refused_text "deep nesting" "$(printf '[%.0s' $(seq 100000))" "levels deep"
+refused_text "many brackets" "$(printf '[%.0s' $(seq 100000))" "more than 1000 brackets are open here"
+refused_text "deep nesting" "$(printf '[%.0s' $(seq 100))" "levels deep"
 
 head -c 104857600 /dev/urandom >"$work/garbage.yaml"
 refused "100 MB of garbage" "garbage.yaml" "100.0 MB" -- "$work/garbage.yaml"
