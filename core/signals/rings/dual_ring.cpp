@@ -142,6 +142,10 @@ private:
         for (int group = 0; group < view_.groups(); ++group) {
             if (!phase(current(ring)).has_green(group) || view_.light(group) != Light::green) continue;
             if (keeps_green(0, group) || keeps_green(1, group)) continue;
+            if (view_.green_start_tick(group) == view_.tick()) {  // it would show yellow without a green before
+                view_.show(group, Light::red);
+                continue;
+            }
             at(ring, kClearing) |= static_cast<std::int64_t>(bit(group));
             view_.show(group, Light::yellow);
             memory_.green_end(group) = view_.tick();
