@@ -44,8 +44,8 @@ wait_for() {
     done
 }
 
-# machine_number: prints the number of this machine in the names of partial files: a hash (FNV-1a) of its name, the number of
-# its start and the number of the container
+# machine_number: prints the number of this machine in the names of partial files: a hash (FNV-1a) of its name, the
+# number of its start and the number of the container
 machine_number() {
     python3 -c '
 import os, pathlib, socket
