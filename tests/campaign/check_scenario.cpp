@@ -52,7 +52,7 @@ private:
     bool has_failed_ = false;
 };
 
-// What the checks need of a run.
+// The results of a run that the checks use.
 struct Outcome {
     std::string population;
     Violations violations;

@@ -70,7 +70,7 @@ class Campaign:
         self.failed = []
 
     def run(self, number):
-        """Runs the scenario with a number. Returns the number, the case, the words for the program and the lines that it prints."""
+        """Runs the scenario with a number. Returns the number, the case, its extra checks and the printed lines."""
         draw = scenarios.ScenarioDraw(number)
         scenario = draw.scenario()
         case = {"scenario": scenario, "files": draw.files}

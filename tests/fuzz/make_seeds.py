@@ -3,8 +3,9 @@
 
     make_seeds.py FOLDER
 
-Takes the scenarios, the sweeps and the SUMO files of the project, and the own seeds in corpus/. A file corpus/TARGET.txt
-has one seed in each line; a folder corpus/TARGET has one seed in each file. Findings of campaigns are kept there too.
+The script takes the scenarios, the sweeps and the SUMO files of the project, and the own seeds in corpus/. A file
+corpus/TARGET.txt has one seed in each line; a folder corpus/TARGET has one seed in each file. Findings of campaigns are
+kept there too.
 The SUMO files are also packed with gzip.
 """
 

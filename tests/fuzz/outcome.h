@@ -1,4 +1,4 @@
-// What a fuzz target may do: succeed, or throw an InputError with a printable message.
+// Each fuzz target must succeed, or throw an InputError with a printable message.
 #pragma once
 
 #include <cstdio>
