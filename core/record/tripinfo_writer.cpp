@@ -69,7 +69,7 @@ private:
             trip.depart_mps = speed_mps;
             trip.depart_lane = place.lane;
             trip.policy = v.policy[slot];
-            trip.number = v.record[slot].trip;
+            trip.number = v.itinerary_of(slot).trip;
         } else {
             const double limit_mps = model_.graph.lanes[static_cast<std::size_t>(lane)].limit_mps;
             const bool is_stopped = speed_mps < kStoppedSpeed_mps;

@@ -40,7 +40,7 @@ LeaderGap leader_gap(const Model& model, const State& state, int lane, int slot)
         first ? leader_ahead(state, lane, slot, model.common_driver().cacc.radar_range_m) : LeaderAhead{slot - 1, 0.0};
     if (ahead.slot < 0) return {};
     const double rear_m = ahead.lane_start_m + v.position_m[at(ahead.slot)] - v.length_m[at(ahead.slot)];
-    return {rear_m - v.position_m[at(slot)], model.vehicles[at(v.type[at(ahead.slot)])].length_m};
+    return {rear_m - v.position_m[at(slot)], model.vehicles[at(v.type_of(at(ahead.slot)))].length_m};
 }
 
 // Returns the net gaps between the vehicles of the first lane, m.

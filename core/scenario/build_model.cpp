@@ -21,11 +21,12 @@ namespace stopline {
 namespace {
 
 void add_connections(Model& model) {
-    model.connections_to.resize(model.graph.lanes.size());
+    std::vector<std::vector<int>> connections_to(model.graph.lanes.size());
     for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
         if (model.graph.lanes[at(lane)].origin < 0) continue;
-        model.connections_to[at(model.graph.lanes[at(lane)].next[0])].push_back(lane);
+        connections_to[at(model.graph.lanes[at(lane)].next[0])].push_back(lane);
     }
+    for (const std::vector<int>& connections : connections_to) model.connections_to.add(connections);
 }
 
 void add_rules(const Scenario& scenario, Model& model) {

@@ -57,7 +57,7 @@ private:
         const LaneBlock& block = state.blocks[at(passage.to_lane)];
         for (int slot = block.first; slot < block.past_last(); ++slot) {
             if (state.vehicles.id[at(slot)] != passage.vehicle) continue;
-            const int trip = state.vehicles.record[at(slot)].trip;
+            const int trip = state.vehicles.itinerary_of(at(slot)).trip;
             if (trip < 0) break;
             return std::max(passage.time_s - model_.demand.trips[at(trip)].depart_s - model_.step_s, 0.0);
         }

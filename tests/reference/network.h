@@ -73,9 +73,7 @@ struct World {
     const std::vector<int>& route_of(int route) const {
         return model.graph.routes[static_cast<std::size_t>(route)].lanes;
     }
-    const std::vector<int>& connections_to(int lane) const {
-        return model.connections_to[static_cast<std::size_t>(lane)];
-    }
+    std::span<const int> connections_to(int lane) const { return model.connections_to.of(lane); }
     const Leader& leader_of(const Vehicle& v) const { return leaders[static_cast<std::size_t>(v.lane)][v.index]; }
 
     // Returns the signal group that a vehicle obeys on an approach lane if it takes the connection `next` (-1: none).

@@ -111,7 +111,7 @@ public:
         v.standstill_gap_m[i] = static_cast<float>(model_->policies[at(policy)].settings.standstill_gap_m);
         v.end_speed_mps[i] = 1e3F;
         v.policy[i] = policy;
-        v.type[i] = type;
+        if (v.has_several_types) v.type[i] = type;
         if (v.has_human_drivers) v.start_ticks[i] = kStartedLongAgo_ticks;
         v.id[i] = state.insertion.next_id++;
         v.record[i] = {};

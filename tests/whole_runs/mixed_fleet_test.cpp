@@ -54,7 +54,7 @@ std::vector<Highest> run(const Model& model, double until_s) {
                 const int policy = v.policy[i];
                 class_of.emplace(v.id[i], policy);
                 EXPECT_FLOAT_EQ(v.length_m[i], static_cast<float>(model.vehicle_of(policy).length_m));
-                EXPECT_EQ(v.type[i], model.classes[at(policy)].vehicle);
+                EXPECT_EQ(v.type_of(i), model.classes[at(policy)].vehicle);
                 Highest& own = highest[at(policy)];
                 own.speed_mps = std::max(own.speed_mps, v.speed_mps[i]);
                 const auto [last, is_new] = speed_of.emplace(v.id[i], v.speed_mps[i]);

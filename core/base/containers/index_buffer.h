@@ -11,7 +11,7 @@ class IndexBuffer {
 public:
     // Empties the list and reserves memory for `capacity` indices.
     void reset(std::size_t capacity) {
-        if (indices_.size() < capacity + kUnconditional) indices_.resize(2 * capacity + kUnconditional);
+        if (indices_.size() < capacity + kUnconditional) indices_.resize(capacity + capacity / 4 + kUnconditional);
         size_ = 0;
     }
     void push(int index) { indices_[size_++] = index; }

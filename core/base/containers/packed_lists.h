@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -14,7 +15,7 @@ public:
     template <class List>
     void add(const List& list) {
         elements_.insert(elements_.end(), list.begin(), list.end());
-        offsets_.push_back(elements_.size());
+        offsets_.push_back(static_cast<std::uint32_t>(elements_.size()));
     }
     std::span<const T> of(int list) const {
         const std::size_t first = offsets_[static_cast<std::size_t>(list)];
@@ -40,7 +41,7 @@ public:
 
 private:
     std::vector<T> elements_;
-    std::vector<std::size_t> offsets_{0};
+    std::vector<std::uint32_t> offsets_{0};
 };
 
 }  // namespace stopline

@@ -41,8 +41,8 @@ void DeadlockSearch::observe(const State& state) {
     Deadlock found;
     found.to_s = model_.time_s(state.tick);
     std::int64_t earliest_tick = state.tick;
-    for (std::size_t lane = 0; lane < state.junctions.occupants.size(); ++lane) {
-        for (const JunctionOccupant& occupant : state.junctions.occupants[lane]) {
+    for (std::size_t lane = 0; lane < state.plan.lane_order().size(); ++lane) {
+        for (const JunctionOccupant& occupant : occupants_of(state, static_cast<int>(lane))) {
             if (occupant.since >= earliest_tick) continue;
             earliest_tick = occupant.since;
             found.lane = static_cast<int>(lane);

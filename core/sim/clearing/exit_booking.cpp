@@ -36,7 +36,7 @@ public:
 
     ExitBooking run() {
         find_room();
-        for (const int connection : model_.connections_to[at(exit_)]) subtract_vehicles_to(connection);
+        for (const int connection : model_.connections_to.of(exit_)) subtract_vehicles_to(connection);
         return result_;
     }
 

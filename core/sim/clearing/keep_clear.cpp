@@ -66,7 +66,7 @@ const ExitRoom& exit_room(const Model& model, State& state, int exit) {
         room.room_m = line_m - model.driver_of(policy).tables.stop.margin_m - (moving_m - leaving_m);
     }
     if (room.stopped_slot < 0) return room;
-    for (const int other : model.connections_to[at(exit)]) {
+    for (const int other : model.connections_to.of(exit)) {
         const LaneBlock& inner = state.blocks[at(other)];
         for (int slot = inner.first; slot < inner.past_last(); ++slot) room.room_m -= space_needed_m(v, slot);
     }
@@ -104,7 +104,7 @@ int crossing_blocker(const Model& model, const State& state, int connection) {
     const std::int64_t pass_after_ticks = model.rules.pass_blocker_ticks;
     for (const Conflict& c : state.plan.conflicts(connection)) {
         if (c.yields || c.other_yields) continue;
-        for (const JunctionOccupant& occupant : state.junctions.occupants[at(c.other)]) {
+        for (const JunctionOccupant& occupant : occupants_of(state, c.other)) {
             if (v.speed_mps[at(occupant.slot)] >= kCrawlingSpeed_mps || !must_clear_first(state, c, occupant)) continue;
             if (pass_after_ticks > 0 && state.tick - v.stopped_since[at(occupant.slot)] >= pass_after_ticks) continue;
             return occupant.slot;

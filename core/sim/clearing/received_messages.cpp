@@ -71,7 +71,7 @@ ReceivedBookings received_bookings(const Model& model, const State& state, const
     ReceivedBookings result;
     const VehicleArrays& v = state.vehicles;
     const double to_line_m = state.plan.lane(listener.lane).stop_line_m - v.position_m[at(listener.slot)];
-    for (const int connection : model.connections_to[at(listener.exit)]) {
+    for (const int connection : model.connections_to.of(listener.exit)) {
         const LanePlan& path = state.plan.lane(connection);
         if (path.origin == listener.lane) continue;  // bookings of vehicles on the own lane are always known
         const LatestAdmission& latest = state.clearing.latest_admissions[at(path.origin)];

@@ -42,7 +42,7 @@ bool remove_for_teleport(const Model& model, State& state, int lane) {
     if (target_lane < 0 || congestion.teleporting.past_last() == congestion.teleporting.end) return false;
     // Each detector counts the vehicles upstream of it on the lane. The removed vehicle is taken out of this count, so
     // that the detector does not record it as a crossing.
-    for (const int detector : state.detectors.on_lane[at(lane)]) {
+    for (const int detector : state.detectors.on_lane.of(lane)) {
         int& upstream = state.detectors.upstream[at(detector)];
         upstream = std::min(upstream, block.count - 1);
     }
@@ -57,19 +57,19 @@ bool remove_for_teleport(const Model& model, State& state, int lane) {
 
 namespace {
 
-bool trip_ends_on_next_edge(const State& state, const VehicleRecord& record) {
-    return record.trip >= 0 && state.plan.turn_of_trip(record.trip, record.trip_edge + 1) == Turn::none;
+bool trip_ends_on_next_edge(const State& state, const Itinerary& itinerary) {
+    return itinerary.has_trip() && state.plan.turn_of_trip(itinerary.trip, itinerary.trip_edge + 1) == Turn::none;
 }
 
 // Returns true if a vehicle on a trip can be reinserted on an empty lane. The net gap to the leader, which is further
 // downstream than this lane, must be at least the standstill gap of the vehicle.
 bool has_room_beyond_lane(const Model& model, const State& state, int lane, int slot, double front_m) {
     const VehicleArrays& v = state.vehicles;
-    const VehicleRecord& record = v.record[at(slot)];
-    const int trip_edge = record.trip_edge + 1;
-    const int route = state.plan.adjacent(lane).turn_option(state.plan.turn_of_trip(record.trip, trip_edge)).route;
+    const Itinerary itinerary = v.itinerary_of(at(slot));
+    const int trip_edge = itinerary.trip_edge + 1;
+    const int route = state.plan.adjacent(lane).turn_option(state.plan.turn_of_trip(itinerary.trip, trip_edge)).route;
     if (route < 0) return true;
-    const RoutePosition position{route, 0, record.trip, trip_edge};
+    const RoutePosition position{route, 0, itinerary.trip, trip_edge};
     const LeaderAhead leader = leader_ahead(state, lane, front_m, position, model.common_driver().cacc.radar_range_m);
     if (leader.slot < 0) return true;
     const double rear_m =
@@ -93,8 +93,9 @@ bool reinsert_teleported(const Model& model, State& state, int k) {
     double speed_mps = std::min(lane.limit_mps, model.vehicle_of(v.policy[at(waiting)]).maximum_speed_mps);
     // Only vehicles in imported networks have a trip. In these networks the vehicle can be longer than the target lane.
     // It is then reinserted only if its trip ends on the target lane, with its front at the stop line.
-    if (v.record[at(waiting)].trip >= 0) {
-        if (length_m >= lane.stop_line_m && !trip_ends_on_next_edge(state, v.record[at(waiting)])) return false;
+    const Itinerary itinerary = v.itinerary_of(at(waiting));
+    if (itinerary.has_trip()) {
+        if (length_m >= lane.stop_line_m && !trip_ends_on_next_edge(state, itinerary)) return false;
         front_m = std::min(length_m, lane.stop_line_m);
         const double to_line_m = lane.stop_line_m - front_m;
         speed_mps = std::min(speed_mps, std::sqrt(2.0 * driver.tables.stop.deceleration_mps2 * to_line_m));
@@ -107,7 +108,7 @@ bool reinsert_teleported(const Model& model, State& state, int k) {
         if (room_m < 0.0) return false;
         speed_mps = std::min(v.speed_mps[at(last)], 0.5 * room_m);
     }
-    if (v.record[at(waiting)].trip < 0) {
+    if (!itinerary.has_trip()) {
         speed_mps = std::min(speed_mps, max_stoppable_speed_mps(model, driver, target_lane, front_m));
     }
     if (approaching_vehicle_cannot_stop(model, state, target_lane)) return false;
@@ -118,7 +119,7 @@ bool reinsert_teleported(const Model& model, State& state, int k) {
     v.position_m[i] = front_m;
     v.speed_mps[i] = speed_mps;
     v.acceleration_mps2[i] = 0.0F;
-    v.reset_powertrain(slot, model.vehicles[at(v.type[i])], speed_mps);
+    v.reset_powertrain(slot, model.vehicles[at(v.type_of(i))], speed_mps);
     v.is_platoon_leader[i] = 1.0F;
     v.record[i].previous_lane = v.record[i].second_previous_lane = v.record[i].accepted_gap_on = -1;
     initialise_sensors(v, slot, state.blocks[at(target_lane)].count == 1);
@@ -127,7 +128,7 @@ bool reinsert_teleported(const Model& model, State& state, int k) {
     choose_next_route(model, state, target_lane, slot);
     record_rule_use(model, state, RuleUse::Kind::reinserted, slot, target_lane);
     v.stopped_since[i] = static_cast<int>(state.tick);
-    state.queues.standing[at(target_lane)].last_external_tick = state.tick;
+    state.queues.standing[at(target_lane)].last_external_tick = static_cast<int>(state.tick);
     return true;
 }
 
@@ -138,7 +139,7 @@ void advance_target(const Model& model, State& state, int waiting, TeleportTarge
     const Lane& lane = model.graph.lanes[at(target.lane)];
     const double waiting_s = model.time_s(state.tick - target.waiting_since);
     if (lane.signal_group < 0 || waiting_s < lane.length_m / lane.limit_mps) return;
-    if (trip_ends_on_next_edge(state, state.vehicles.record[at(waiting)])) return;
+    if (trip_ends_on_next_edge(state, state.vehicles.itinerary_of(at(waiting)))) return;
     choose_next_route(model, state, target.lane, waiting);
     target = {model.graph.routes[at(state.vehicles.record[at(waiting)].route)].lanes.back(), state.tick};
 }

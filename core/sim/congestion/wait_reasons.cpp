@@ -98,7 +98,7 @@ private:
     // Returns true if `lane` is a connection to the lane `exit`, or the approach lane of such a connection.
     bool is_exit_of(int lane, int exit) const {
         if (lane == exit) return false;
-        const std::vector<int>& connections = model_.connections_to[at(exit)];
+        const std::span<const int> connections = model_.connections_to.of(exit);
         return std::any_of(connections.begin(), connections.end(), [&](int connection) {
             return connection == lane || model_.graph.lanes[at(connection)].origin == lane;
         });

@@ -22,10 +22,11 @@ int insert_vehicle(const Model& model, State& state, const NewVehicle& vehicle) 
     v.standstill_gap_m[i] = static_cast<float>(model.policies[at(vehicle.policy)].settings.standstill_gap_m);
     v.policy[i] = vehicle.policy;
     limit_to_maximum_speed(state, vehicle.lane, slot);
-    v.type[i] = model.classes[at(vehicle.policy)].vehicle;
+    if (v.has_several_types) v.type[i] = model.classes[at(vehicle.policy)].vehicle;
     v.id[i] = state.insertion.next_id++;
     v.record[i] = {};
-    v.lane_memory[i] = {};
+    if (v.has_itineraries) v.itinerary[i] = {};
+    if (v.has_lane_changes) v.lane_memory[i] = {};
     if (v.has_human_drivers) v.start_ticks[i] = kStartedLongAgo_ticks;
     v.next_lane[i] = -1;
     v.record[i].route = vehicle.route;
@@ -36,7 +37,7 @@ void finish_insertion(const Model& model, State& state, int lane, int slot) {
     VehicleArrays& v = state.vehicles;
     v.stopped_since[at(slot)] = static_cast<int>(state.tick);
     initialise_sensors(v, slot, slot == state.blocks[at(lane)].first);
-    state.queues.standing[at(lane)].last_external_tick = state.tick;
+    state.queues.standing[at(lane)].last_external_tick = static_cast<int>(state.tick);
     ++state.records.entered;
     if (model.records_all) record_passage(state.records, v, model.time_s(state.tick + 1), slot, -1, lane);
 }

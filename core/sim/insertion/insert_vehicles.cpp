@@ -44,7 +44,7 @@ struct Entry {
 };
 
 bool is_connection_occupied(const Model& model, const State& state, int lane) {
-    const std::vector<int>& connections = model.connections_to[at(lane)];
+    const std::span<const int> connections = model.connections_to.of(lane);
     return std::any_of(connections.begin(), connections.end(),
                        [&](int connection) { return state.blocks[at(connection)].count > 0; });
 }
@@ -76,7 +76,7 @@ Entry entry_at(const Model& model, const State& state, int number, int policy) {
                                            model.vehicle_of(policy).maximum_speed_mps});
     const LaneBlock& block = state.blocks[at(lane)];
     if (is_connection_occupied(model, state, lane)) return {};
-    const bool is_link = !model.connections_to[at(lane)].empty();
+    const bool is_link = !model.connections_to.of(lane).empty();
     if (block.count == 0 && is_link) return entry_on_empty_link(model, state, number, policy, max_entry_mps);
     if (block.count == 0) return {true, 0.0, max_entry_mps};
     const double min_front_m = is_link ? model.vehicle_of(policy).length_m : 0.0;
@@ -103,8 +103,8 @@ void copy_longitudinal_state(const Model& model, VehicleArrays& v, std::size_t i
     v.acceleration_mps2[i] = v.acceleration_mps2[leader];
     v.is_platoon_leader[i] = 0.0F;
     if (!v.has_powertrain()) return;
-    if (v.type[i] != v.type[leader]) {
-        const double mass_ratio = model.vehicles[at(v.type[i])].mass_kg / model.vehicles[at(v.type[leader])].mass_kg;
+    if (v.type_of(i) != v.type_of(leader)) {
+        const double mass_ratio = model.vehicles[at(v.type_of(i))].mass_kg / model.vehicles[at(v.type_of(leader))].mass_kg;
         v.acceleration_mps2[i] = std::min(v.acceleration_mps2[leader], 0.0F);
         v.request_mps2[i] = std::min(v.request_mps2[leader], 0.0F);
         v.brake_N[i] = v.brake_N[leader] * static_cast<float>(mass_ratio);
@@ -127,7 +127,7 @@ void insert_at_inlet(const Model& model, State& state, int number, const Entry& 
     inlet.next_policy = -1;
     VehicleArrays& v = state.vehicles;
     const std::size_t i = at(slot);
-    if (inlet.next_path >= 0) v.record[i].path = next_in_path(model.demand, inlet.next_path);
+    if (inlet.next_path >= 0) v.itinerary[i].path = next_in_path(model.demand, inlet.next_path);
     const bool is_first = state.blocks[at(lane)].count == 1;
     if (model.demand.saturated && !is_first && v.speed_mps[i - 1] <= entry.speed_mps) {
         copy_longitudinal_state(model, v, i, i - 1);
@@ -212,7 +212,7 @@ void insert_vehicles(const Model& model, State& state) {
         if (!model.demand.has_arrival_times) return inlet.entered >= planned.vehicles;
         return static_cast<std::size_t>(inlet.entered_arrivals) >= planned.arrivals_s.size();
     };
-    const auto is_link = [&](int k) { return !model.connections_to[at(model.demand.inlets[at(k)].lane)].empty(); };
+    const auto is_link = [&](int k) { return !model.connections_to.of(model.demand.inlets[at(k)].lane).empty(); };
     bool has_exhausted_link = false;
     for (const int k : insertion.open_inlets) {
         if (is_exhausted(k)) {

@@ -96,7 +96,7 @@ double departure_front_m(const Model& model, const State& state, int lane, int n
     const Trip& trip = model.demand.trips[at(number)];
     const double max_m = max_departure_m(model, state, lane, number);
     const double base_m = std::min(static_cast<double>(trip.length_m), max_m);
-    const double min_m = model.connections_to[at(lane)].empty() ? 0.0 : base_m;
+    const double min_m = model.connections_to.of(lane).empty() ? 0.0 : base_m;
     const LaneBlock& block = state.blocks[at(lane)];
     const auto within_lane = [&](double front_m) { return std::clamp(front_m, min_m, max_m); };
     switch (trip.depart_position) {
@@ -231,7 +231,7 @@ bool crossing_vehicle_is_committed(const State& state, int route) {
         const auto is_not_past = [&](const JunctionOccupant& occupant) {
             return occupant.rear_m < conflict.other_to_m;
         };
-        const std::vector<JunctionOccupant>& occupants = state.junctions.occupants[at(conflict.other)];
+        const std::span<const JunctionOccupant> occupants = occupants_of(state, conflict.other);
         if (std::any_of(occupants.begin(), occupants.end(), is_not_past)) return true;
         const LaneBlock& approach = state.blocks[at(state.plan.lane(conflict.other).origin)];
         for (int slot = approach.first; slot < approach.past_last(); ++slot) {
@@ -265,7 +265,7 @@ bool insert_trip(const Model& model, State& state, int number, const InsertionPo
     ensure_free_slot(state, point.lane);
     const int slot =
         insert_vehicle(model, state, {point.lane, point.front_m, speed_mps, trip.length_m, policy, route, false});
-    state.vehicles.record[at(slot)].trip = number;
+    state.vehicles.itinerary[at(slot)].trip = number;
     state.vehicles.record[at(slot)].junction_entry_tick = static_cast<int>(state.tick);
     enter_trip_edge(model, state, point.lane, slot, 0);
     finish_insertion(model, state, point.lane, slot);

@@ -136,12 +136,12 @@ void look_upstream(const Model& model, const State& state, const Upstream& here,
         // (following_turn). The call ignores vehicles with another turn than that of `here.connection`, and vehicles
         // whose trip ends on `here.lane` (Turn::none). A vehicle without a trip can have Turn::none, too, because its
         // turn is not drawn yet. Such a vehicle is assumed to take `here.connection`.
-        const bool unknown = record.trip < 0 && record.following_turn == Turn::none;
+        const bool unknown = record.following_turn == Turn::none && !v.itinerary_of(at(slot)).has_trip();
         if (here.depth == 0 && !unknown && record.following_turn != turn) return;
         const double acceleration_mps2 = model.drivers.front().give_way.approach_acceleration_mps2;
         soonest.keep_earlier(earliest_arrival_s(distance_m, v.speed_mps[at(slot)], acceleration_mps2, limit_mps), slot);
     };
-    for (const int upstream_connection : model.connections_to[at(here.lane)]) {
+    for (const int upstream_connection : model.connections_to.of(here.lane)) {
         const LanePlan& connection = state.plan.lane(upstream_connection);
         if (here.to_area_m > horizon_s * connection.limit_mps) continue;
         const LaneBlock& block = state.blocks[at(upstream_connection)];
@@ -177,7 +177,7 @@ Arrival next_arrival(const Model& model, const State& state, const Conflict& con
     const int held = vehicle_held_at_rest(model, state, other.origin);
     const auto is_ignored = [&](int slot) { return ignores_stopped && v.speed_mps[at(slot)] < kCrawlingSpeed_mps; };
     Arrival soonest;
-    for (const JunctionOccupant& occupant : state.junctions.occupants[at(conflict.other)]) {
+    for (const JunctionOccupant& occupant : occupants_of(state, conflict.other)) {
         if (occupant.front_m >= conflict.other_from_m) continue;
         const bool yields = is_yielding_before(state, occupant.slot, conflict.other_from_m);
         if ((yields && lets_others_go(state, occupant.slot)) || occupant.slot == stopping ||

@@ -46,9 +46,9 @@ bool are_in_line(const State& state, int lane, const JunctionOccupant& own, int 
 // Leaves out pairs that the pass-blocker rule allows, and merging vehicles of which one is wholly ahead of the other.
 std::int64_t count_pairs(const Model& model, const State& state, Partition& part, int lane, const Conflict& c) {
     std::int64_t pairs = 0;
-    for (const JunctionOccupant& own : state.junctions.occupants[at(lane)]) {
+    for (const JunctionOccupant& own : occupants_of(state, lane)) {
         if (own.front_m <= c.from_m || own.rear_m >= c.to_m) continue;
-        for (const JunctionOccupant& other_vehicle : state.junctions.occupants[at(c.other)]) {
+        for (const JunctionOccupant& other_vehicle : occupants_of(state, c.other)) {
             if (other_vehicle.front_m <= c.other_from_m || other_vehicle.rear_m >= c.other_to_m) continue;
             if (is_merge(model, state, lane, c) && are_in_line(state, lane, own, c.other, other_vehicle)) continue;
             if (pass_is_allowed(model, state, part, own.slot, lane, other_vehicle.slot, c.other)) continue;
@@ -66,7 +66,7 @@ std::int64_t count_pairs(const Model& model, const State& state, Partition& part
 std::int64_t count_conflicts_of_lane(const Model& model, const State& state, Partition& part, int lane) {
     std::int64_t pairs = 0;
     for (const Conflict& c : state.plan.conflicts(lane)) {
-        if (c.other > lane && !state.junctions.occupants[at(c.other)].empty())
+        if (c.other > lane && !occupants_of(state, c.other).empty())
             pairs += count_pairs(model, state, part, lane, c);
     }
     return pairs;
@@ -75,7 +75,7 @@ std::int64_t count_conflicts_of_lane(const Model& model, const State& state, Par
 }  // namespace
 
 void count_conflicts(const Model& model, const State& state, Partition& part) {
-    for (const int lane : part.occupied_connections) {
+    for (const int lane : part.occupants.keys()) {
         if (state.junctions.occupied.has_any(state.plan.conflicting(lane)))
             part.violations.conflicts += count_conflicts_of_lane(model, state, part, lane);
     }

@@ -48,7 +48,7 @@ public:
             for_each_holder(conflict, [&](const ChainLink& link) { check_stop(conflict.from_m - margin_m_, link); });
         }
         int leader = -1;
-        for (const JunctionOccupant& occupant : state_.junctions.occupants[at(lane)]) {
+        for (const JunctionOccupant& occupant : occupants_of(state_, lane)) {
             if (occupant.rear_m < v.front_m) continue;
             leader = occupant.slot;
             if (is_crawling(leader)) check_stop(occupant.rear_m - standstill_gap_m(v.slot), {leader});
@@ -90,7 +90,7 @@ private:
     //   - Another vehicle that is in the area or can no longer stop before it. It blocks the area if it stops there.
     template <class Visit>
     void for_each_holder(const Conflict& conflict, const Visit& visit) const {
-        for (const JunctionOccupant& occupant : state_.junctions.occupants[at(conflict.other)]) {
+        for (const JunctionOccupant& occupant : occupants_of(state_, conflict.other)) {
             const int slot = occupant.slot;
             if (occupant.rear_m >= conflict.other_to_m || slot == v_.slot) continue;
             if (occupant.front_m > conflict.other_from_m && is_crawling(slot)) {
@@ -211,7 +211,7 @@ private:
     template <class Visit>
     void visit_leader(const ChainLink& link, const OnConnection& on, const Visit& visit) const {
         int leader = -1;
-        for (const JunctionOccupant& occupant : state_.junctions.occupants[at(on.connection)]) {
+        for (const JunctionOccupant& occupant : occupants_of(state_, on.connection)) {
             if (occupant.rear_m < on.front_m) break;
             leader = occupant.slot;
         }

@@ -31,7 +31,7 @@ double travel_time_s(const DriverPlan& driver, double distance_m, double speed_m
 // the speed limit, so it is rather too short than too long.
 double time_since_last_arrival_s(const State& state, const Conflict& conflict) {
     double since_s = 0.0;
-    for (const JunctionOccupant& occupant : state.junctions.occupants[at(conflict.other)]) {
+    for (const JunctionOccupant& occupant : occupants_of(state, conflict.other)) {
         if (occupant.front_m > conflict.other_from_m && occupant.rear_m < conflict.other_to_m)
             since_s = (occupant.front_m - conflict.other_from_m) / state.plan.lane(conflict.other).limit_mps;
     }

@@ -22,14 +22,13 @@ public:
     // Removes the occupants of the previous step from the occupant lists, and their connections from the bitsets
     // `occupied` and `with_stopped`.
     void clear_lists() {
-        for (const int lane : part_.occupied_connections) {
-            junctions_.occupants[at(lane)].clear();
+        for (const int lane : part_.occupants.keys()) {
             const int bit = state_.plan.lane(lane).bitset_index;
             if (bit < 0) continue;
             junctions_.occupied.clear_word_of(at(bit));
             junctions_.with_stopped.clear_word_of(at(bit));
         }
-        part_.occupied_connections.clear();
+        part_.occupants.clear(junctions_.occupants_place);
     }
 
     // Adds the vehicles that have their front on an exit lane and their rear still inside the intersection. Checks only
@@ -53,7 +52,6 @@ public:
         const LaneBlock& block = state_.blocks[at(lane)];
         for (int slot = block.first; slot < block.past_last(); ++slot) add(lane, slot, 0.0);
         if (const int bit = state_.plan.lane(lane).bitset_index; bit >= 0) junctions_.to_decide.set(at(bit));
-        state_.plan.prefetch_conflicts(lane);
     }
 
     // Adds the vehicles on an approach lane that have passed the stop line with their front, or that will pass it
@@ -71,8 +69,8 @@ public:
     }
 
     void update_bitsets() {
-        for (const int lane : part_.occupied_connections) {
-            const std::vector<JunctionOccupant>& occupants_of_lane = junctions_.occupants[at(lane)];
+        for (const int lane : part_.occupants.keys()) {
+            const std::span<const JunctionOccupant> occupants_of_lane = occupants_of(state_, lane);
             part_.longest_in_junction =
                 std::max(part_.longest_in_junction, state_.tick - occupants_of_lane.front().since);
             const int bit = state_.plan.lane(lane).bitset_index;
@@ -83,6 +81,10 @@ public:
             };
             if (std::any_of(occupants_of_lane.begin(), occupants_of_lane.end(), is_slow))
                 junctions_.with_stopped.set(at(bit));
+        }
+        for (const int lane : part_.occupants.keys()) {
+            if (state_.plan.lane(lane).yields || junctions_.occupied.has_any(state_.plan.conflicting(lane)))
+                state_.plan.prefetch_conflicts(lane);
         }
     }
 
@@ -101,10 +103,8 @@ private:
         add(lane, slot, offset_m, v_.record[at(slot)].junction_entry_tick);
     }
     void add(int lane, int slot, double offset_m, std::int64_t since) {
-        std::vector<JunctionOccupant>& occupants_of_lane = junctions_.occupants[at(lane)];
-        if (occupants_of_lane.empty()) part_.occupied_connections.push_back(lane);
         const double front_m = v_.position_m[at(slot)] + offset_m;
-        occupants_of_lane.push_back({slot, front_m, front_m - v_.length_m[at(slot)], since});
+        part_.occupants.add(lane, {slot, front_m, front_m - v_.length_m[at(slot)], since}, junctions_.occupants_place);
     }
 
     const State& state_;

@@ -158,7 +158,7 @@ private:
             if (conflict.from_m >= kept_out.from_m && !is_beyond_decision)
                 return nearer({std::min(wait_m(conflict), line_m_), kept_out.crossing_slot, YieldReason::deadlock},
                               behind);
-            const bool is_empty = !has_others_inside || state_.junctions.occupants[at(conflict.other)].empty();
+            const bool is_empty = !has_others_inside || occupants_of(state_, conflict.other).empty();
             if (merges) {
                 if (!is_beyond_decision) keep_nearer(merging_wait(conflict, is_empty), behind);
             } else if (const Wait wait = blocked_wait(conflict, is_empty, checks_committed, is_far); wait.exists()) {
@@ -200,7 +200,7 @@ private:
     // Returns the slot of a vehicle on connection `conflict.other` that keeps the candidate out of the conflict area;
     // -1: none.
     int area_blocker(const Conflict& conflict) {
-        for (const JunctionOccupant& occupant : state_.junctions.occupants[at(conflict.other)]) {
+        for (const JunctionOccupant& occupant : occupants_of(state_, conflict.other)) {
             if (blocks_area(model_, state_, part_, lane_, conflict, v_, occupant)) return occupant.slot;
         }
         return -1;
@@ -245,7 +245,7 @@ private:
     // to wait. Such a vehicle may stop before it has left the area.
     bool clears_area_in_time(const Conflict& conflict, int blocker) const {
         if (!waits_at_line() || arrays_.speed_mps[at(blocker)] < kCrawlingSpeed_mps) return false;
-        for (const JunctionOccupant& occupant : state_.junctions.occupants[at(conflict.other)]) {
+        for (const JunctionOccupant& occupant : occupants_of(state_, conflict.other)) {
             if (occupant.rear_m >= conflict.other_to_m) continue;
             const double speed_mps = arrays_.speed_mps[at(occupant.slot)];
             const double in_s =
@@ -274,7 +274,7 @@ private:
                         nearest);
         };
         if (!is_empty) {
-            for (const JunctionOccupant& occupant : state_.junctions.occupants[at(conflict.other)]) {
+            for (const JunctionOccupant& occupant : occupants_of(state_, conflict.other)) {
                 if (blocks_area(model_, state_, part_, lane_, conflict, v_, occupant))
                     follow(occupant.slot, occupant.front_m);
             }
@@ -379,14 +379,12 @@ void decide(const Model& model, State& state, Partition& part, int lane) {
         const bool is_slow = v.speed_mps[at(slot)] < kCrawlingSpeed_mps;
         decide_candidate({slot, v.position_m[at(slot)], true, is_slow}, lane, 0.0);
     }
-    std::vector<int>& approaching = state.junctions.approaching[at(lane)];
-    for (const int slot : approaching) {
+    for (const int slot : part.approaching.at_place(state.junctions.approaching_place[at(lane)])) {
         const double position_m = v.position_m[at(slot)];
         decide_candidate({slot, position_m - origin.length_m, position_m > origin.stop_line_m,
                           v.speed_mps[at(slot)] < kCrawlingSpeed_mps},
                          plan.origin, -origin.length_m);
     }
-    approaching.clear();
 }
 
 }  // namespace
@@ -406,6 +404,7 @@ void decide_right_of_way(const Model& model, State& state, Partition& part) {
         decide(model, state, part, state.plan.connection_at(bit));
         return false;
     });
+    part.approaching.clear(state.junctions.approaching_place);
     resolve_deadlocks(state, part);
     count_conflicts(model, state, part);
 }

@@ -142,7 +142,7 @@ void make_platoon_leader(State& state, const LanePlan& lane, int slot) {
 // out the vehicle that stops at the line and all vehicles behind it. Also leaves out vehicles that are further than
 // decision_distance_m() from their first conflict area, or from the stop line if they may wait only there or have a
 // stop sign. Exception: vehicles that must yield and have already accepted a gap are listed at a greater distance, too.
-void list_approaching(const Model& model, State& state, int index) {
+void list_approaching(const Model& model, State& state, Partition& part, int index) {
     // Vehicles further than this from the lane's end are not listed. 60 m suffice for a comfortable stop from 50 km/h.
     constexpr double kLookBack_m = 60.0;
     // Replaces kLookBack_m in imported networks (only their demand has trips), where speed limits above 50 km/h occur.
@@ -172,7 +172,7 @@ void list_approaching(const Model& model, State& state, int index) {
         }
         const bool is_far = to_area_m > decision_distance_m(driver, v.speed_mps[at(slot)]);
         if (is_far && !(connection_plan.yields && v.record[at(slot)].accepted_gap_on == next)) continue;
-        state.junctions.approaching[at(next)].push_back(slot);
+        part.approaching.add(next, slot, state.junctions.approaching_place);
         if (!state.junctions.to_decide.has(at(connection_plan.bitset_index))) state.plan.prefetch_conflicts(next);
         state.junctions.to_decide.set(at(connection_plan.bitset_index));
     }
@@ -229,7 +229,7 @@ void decide_stop_lines(const Model& model, State& state, Partition& part) {
         if (held_slot >= 0 || line.keep_clear_vehicle >= 0) record_hold(model, state, part, index, held_slot, line);
         state.stop_lines.stop_slot[at(index)] = stop_slot;
         line.stop_id = stop_slot < 0 ? -1 : state.vehicles.id[at(stop_slot)];
-        list_approaching(model, state, index);
+        list_approaching(model, state, part, index);
     }
 }
 

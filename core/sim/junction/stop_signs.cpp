@@ -40,7 +40,7 @@ bool may_accompany(const Model& model, const State& state, int lane, int next, i
     };
     for (const Conflict& conflict : state.plan.conflicts(next)) {
         if (has_conflict(conflict.other)) continue;
-        for (const JunctionOccupant& occupant : state.junctions.occupants[at(conflict.other)]) {
+        for (const JunctionOccupant& occupant : occupants_of(state, conflict.other)) {
             if (occupant.since >= stop_tick && model.time_s(state.tick - occupant.since) <= kJustStarted_s) return true;
         }
     }

@@ -75,16 +75,17 @@ LaterChanges later_changes(const Model& model, const State& state, int lane, int
     const Turn turn = state.plan.turn_of(vehicle.route);
     const int route = state.plan.adjacent(lane).turn_option(turn).route;
     if (route < 0) return {kNoTurn, kNoTurn};
-    if (vehicle.trip >= 0) {
-        const int changes = state.plan.lane_changes_after(vehicle.trip, vehicle.trip_edge, lane);
+    if (const Itinerary itinerary = state.vehicles.itinerary_of(at(slot)); itinerary.has_trip()) {
+        const int changes = state.plan.lane_changes_after(itinerary.trip, itinerary.trip_edge, lane);
         return {changes, changes};
     }
     const int exit = state.plan.route(route).back();
     if (vehicle.following_turn == Turn::none || model.graph.lanes[at(exit)].approach < 0) return {};
-    return changes_for(state, exit, vehicle.following_turn, state.vehicles.lane_memory[at(slot)].third_turn);
+    return changes_for(state, exit, vehicle.following_turn, vehicle.third_turn);
 }
 
 void update_preferred_lane(const Model& model, State& state, int lane, int slot) {
+    if (!state.vehicles.has_lane_changes) return;
     LaneChangeMemory& memory = state.vehicles.lane_memory[at(slot)];
     memory.preferred_offset = 0;
     const AdjacentLanes& adjacent = state.plan.adjacent(lane);

@@ -26,7 +26,7 @@ double lane_change_entry_speed_mps(const Model& model, const State& state, std::
                                    int slot) {
     const VehicleRecord& record = state.vehicles.record[at(slot)];
     const int exit = route.back();
-    if (record.trip < 0 || record.following_turn == Turn::none) return kNoLowerLimit_mps;
+    if (record.following_turn == Turn::none || !state.vehicles.itinerary_of(at(slot)).has_trip()) return kNoLowerLimit_mps;
     const int changes = state.plan.adjacent(exit).turn_option(record.following_turn).lane_changes;
     const DriverPlan& driver = model.driver_of(state.vehicles.policy[at(slot)]);
     const double room_m = state.plan.lane(exit).stop_line_m - driver.tables.stop.margin_m;
@@ -50,13 +50,14 @@ float end_speed(const Model& model, const State& state, std::span<const int> rou
 // first lane and the same turn but different exit lanes. Among equally good routes the vehicle's id decides.
 int best_parallel_route(const Model& model, const State& state, int route, int slot) {
     const auto changes = [&](int candidate) {
-        const VehicleRecord& vehicle = state.vehicles.record[at(slot)];
+        const Itinerary itinerary = state.vehicles.itinerary_of(at(slot));
+        const Turn following_turn = state.vehicles.record[at(slot)].following_turn;
         const int exit = state.plan.route(candidate).back();
-        if (vehicle.trip < 0)
-            return std::abs(state.plan.adjacent(exit).turn_option(vehicle.following_turn).lane_changes);
+        if (!itinerary.has_trip())
+            return std::abs(state.plan.adjacent(exit).turn_option(following_turn).lane_changes);
         const int approach = model.graph.lanes[at(exit)].approach;
         const auto lane_count = static_cast<int>(model.graph.approaches[at(approach)].lanes.size());
-        return state.plan.lane_changes_from(vehicle.trip, vehicle.trip_edge + 1, exit, lane_count);
+        return state.plan.lane_changes_from(itinerary.trip, itinerary.trip_edge + 1, exit, lane_count);
     };
     int fewest = changes(route);
     int count = 0;
@@ -87,12 +88,12 @@ Turn draw_turn_beyond(const Model& model, State& state, int route, bool chose_la
 void set_planned_turns(const Model& model, State& state, int slot) {
     VehicleRecord& record = state.vehicles.record[at(slot)];
     record.following_turn = Turn::none;
-    Turn& third_turn = state.vehicles.lane_memory[at(slot)].third_turn;
-    third_turn = Turn::none;
+    record.third_turn = Turn::none;
     if (model.graph.lanes[at(state.plan.route(record.route).back())].approach < 0) return;
-    record.following_turn = state.plan.turn_of(model.demand.path_routes[at(record.path)]);
-    const int later = next_in_path(model.demand, record.path);
-    if (later >= 0) third_turn = state.plan.turn_of(model.demand.path_routes[at(later)]);
+    const int path = state.vehicles.itinerary[at(slot)].path;
+    record.following_turn = state.plan.turn_of(model.demand.path_routes[at(path)]);
+    const int later = next_in_path(model.demand, path);
+    if (later >= 0) record.third_turn = state.plan.turn_of(model.demand.path_routes[at(later)]);
 }
 
 }  // namespace
@@ -126,7 +127,7 @@ int draw_route(const Model& model, State& state, int inlet, std::int64_t k, bool
 void draw_later_turns(const Model& model, State& state, int lane, int slot, bool chose_lane) {
     VehicleRecord& record = state.vehicles.record[at(slot)];
     if (model.driver_of(state.vehicles.policy[at(slot)]).lane_change.look_ahead == "off") return;
-    if (record.path >= 0) {
+    if (state.vehicles.itinerary_of(at(slot)).path >= 0) {
         set_planned_turns(model, state, slot);
         update_preferred_lane(model, state, lane, slot);
         return;
@@ -137,7 +138,7 @@ void draw_later_turns(const Model& model, State& state, int lane, int slot, bool
     if (record.following_turn != Turn::none) {
         const int exit = state.plan.route(record.route).back();
         const int next_route = state.plan.route_with(model.graph.lanes[at(exit)].approach, record.following_turn);
-        state.vehicles.lane_memory[at(slot)].third_turn =
+        record.third_turn =
             next_route < 0 ? Turn::none : draw_turn_beyond(model, state, next_route, false);
     }
     update_preferred_lane(model, state, lane, slot);
@@ -145,25 +146,27 @@ void draw_later_turns(const Model& model, State& state, int lane, int slot, bool
 
 void enter_trip_edge(const Model& model, State& state, int lane, int slot, int trip_edge) {
     VehicleRecord& record = state.vehicles.record[at(slot)];
-    record.trip_edge = trip_edge;
-    record.following_turn = state.plan.turn_of_trip(record.trip, trip_edge + 1);
+    Itinerary& itinerary = state.vehicles.itinerary[at(slot)];
+    itinerary.trip_edge = trip_edge;
+    record.following_turn = state.plan.turn_of_trip(itinerary.trip, trip_edge + 1);
     record.route =
-        state.plan.route_with(model.graph.lanes[at(lane)].approach, state.plan.turn_of_trip(record.trip, trip_edge));
+        state.plan.route_with(model.graph.lanes[at(lane)].approach, state.plan.turn_of_trip(itinerary.trip, trip_edge));
     adopt_lane_route(model, state, lane, slot);
 }
 
 void choose_next_route(const Model& model, State& state, int lane, int slot) {
-    if (const VehicleRecord& own = state.vehicles.record[at(slot)]; own.trip >= 0) {
-        if (state.plan.lane(lane).origin < 0) enter_trip_edge(model, state, lane, slot, own.trip_edge + 1);
+    const Itinerary itinerary = state.vehicles.itinerary_of(at(slot));
+    if (itinerary.has_trip()) {
+        if (state.plan.lane(lane).origin < 0) enter_trip_edge(model, state, lane, slot, itinerary.trip_edge + 1);
         return;
     }
     const int inlet = state.insertion.inlet_of[at(lane)];
     if (inlet < 0) return;
     VehicleRecord& record = state.vehicles.record[at(slot)];
-    if (record.path >= 0) {
-        record.route = model.demand.path_routes[at(record.path)];
-        record.path = next_in_path(model.demand, record.path);
-        record.following_turn = std::exchange(state.vehicles.lane_memory[at(slot)].third_turn, Turn::none);
+    if (itinerary.path >= 0) {
+        record.route = model.demand.path_routes[at(itinerary.path)];
+        state.vehicles.itinerary[at(slot)].path = next_in_path(model.demand, itinerary.path);
+        record.following_turn = std::exchange(record.third_turn, Turn::none);
         adopt_lane_route(model, state, lane, slot);
         draw_later_turns(model, state, lane, slot, false);
         return;
@@ -174,8 +177,7 @@ void choose_next_route(const Model& model, State& state, int lane, int slot) {
     record.route = known_route >= 0
                        ? known_route
                        : draw_route(model, state, inlet, state.insertion.inlets[at(inlet)].entered++, false);
-    Turn& third_turn = state.vehicles.lane_memory[at(slot)].third_turn;
-    record.following_turn = std::exchange(third_turn, Turn::none);
+    record.following_turn = std::exchange(record.third_turn, Turn::none);
     adopt_lane_route(model, state, lane, slot);
     draw_later_turns(model, state, lane, slot, false);
 }

@@ -118,7 +118,7 @@ public:
         v_.speed_cap_mps[at(first)] = kUnlimitedSpeed_mps;
         cap_at_speed_targets(false);
         cap_waiting_drivers(false);
-        if (last_stopping_slot() > first + queue.first) queue.last_external_tick = state_.tick;
+        if (last_stopping_slot() > first + queue.first) queue.last_external_tick = static_cast<int>(state_.tick);
         update_queue(v_, block_, state_.tick, queue);
         const bool is_restrained = last_stopping_slot() >= first + queue.first;
         const int receivers = is_restrained ? 0 : relay_start(model_, state_, lane_, queue, part_.start_messages);
@@ -158,8 +158,9 @@ private:
     // vehicle if this vehicle is at rest. A cap set by cap_speed() is removed after the step, so the vehicle would lose
     // the cap that holds it while the lane sleeps.
     void cap_at_speed_targets(bool sleeps) {
-        if (part_.lanes_with_speed_targets.empty()) return;
-        for (const SpeedTarget& target : state_.speed_targets[at(lane_)]) {
+        if (part_.speed_targets.empty()) return;
+        const int place = state_.speed_targets_place[at(lane_)];
+        for (const SpeedTarget& target : part_.speed_targets.at_place(place)) {
             const double speed_mps = v_.speed_mps[at(target.slot)];
             if (sleeps && target.slot == block_.first && speed_mps == 0.0) continue;
             const double braking_step_mps = target.deceleration_mps2 * model_.step_s;
@@ -187,7 +188,7 @@ private:
             const double wait_s = start_reaction_s(driver.human, reaction_s) + model_.powertrain_delay_s;
             if (!waits_to_start(v_.start_ticks[i], v_.speed_mps[i], wait_s, model_.step_s)) continue;
             cap_speed(slot, 0.0);
-            state_.queues.standing[at(lane_)].last_external_tick = state_.tick;
+            state_.queues.standing[at(lane_)].last_external_tick = static_cast<int>(state_.tick);
         }
     }
 
@@ -212,7 +213,7 @@ private:
             if (stop.slot == block_.first) continue;
             cap_speed(stop.slot,
                       stopping_speed_mps(model_, v_, stop.slot, stop.position_m - v_.position_m[at(stop.slot)]));
-            state_.queues.standing[at(lane_)].last_external_tick = state_.tick;
+            state_.queues.standing[at(lane_)].last_external_tick = static_cast<int>(state_.tick);
         }
     }
 

@@ -18,7 +18,7 @@ bool approaching_vehicle_cannot_stop(const Model& model, const State& state, int
         return insertion_stopping_distance_m(model.driver_of(v.policy[at(slot)]), v.speed_mps[at(slot)], gap_m) >
                distance_m;
     };
-    for (const int connection_lane : model.connections_to[at(lane)]) {
+    for (const int connection_lane : model.connections_to.of(lane)) {
         const Lane& connection = model.graph.lanes[at(connection_lane)];
         const LaneBlock& inner = state.blocks[at(connection_lane)];
         for (int slot = inner.first; slot < inner.past_last(); ++slot) {

@@ -47,7 +47,7 @@ Neighbour follower_upstream(const Model& model, const State& state, int lane, do
     const auto keep_nearest = [&](int slot, double gap_m) {
         if (gap_m < nearest.gap_m) nearest = neighbour(v, slot, gap_m);
     };
-    for (const int connection : model.connections_to[at(lane)]) {
+    for (const int connection : model.connections_to.of(lane)) {
         const LanePlan& connection_plan = state.plan.lane(connection);
         const LaneBlock& inner = state.blocks[at(connection)];
         if (inner.count > 0) {

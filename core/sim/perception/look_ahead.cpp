@@ -169,8 +169,10 @@ STOPLINE_INLINE LeaderAhead ahead_of(const State& state, int lane, int slot, dou
     const double position_m = state.vehicles.position_m[at(slot)];
     const LeaderAhead leader =
         ahead_on_route(state, lane, position_m, record.route, record.route_index, range_m, hidden);
-    if (leader.slot >= 0 || record.trip < 0) return leader;
-    const RoutePosition position{record.route, record.route_index, record.trip, record.trip_edge};
+    if (leader.slot >= 0) return leader;
+    const Itinerary itinerary = state.vehicles.itinerary_of(at(slot));
+    if (!itinerary.has_trip()) return leader;
+    const RoutePosition position{record.route, record.route_index, itinerary.trip, itinerary.trip_edge};
     return ahead_on_trip(state, lane, position_m, position, range_m);
 }
 

@@ -91,16 +91,15 @@ void list_cache_lines(const Model& model, State& state, Partition& part) {
     }
     const JunctionState& junctions = state.junctions;
     for (const int lane : part.connections) {
-        element(junctions.occupants, lane), element(junctions.approaching, lane);
+        element(junctions.occupants_place, lane), element(junctions.approaching_place, lane);
         for (const Bitset* set : {&junctions.occupied, &junctions.with_stopped, &junctions.to_decide}) {
             const std::uint64_t* const word = set->word_of(at(state.plan.lane(lane).bitset_index));
             add(word, word + 1);
         }
-        add(junctions.occupants[at(lane)].data(), junctions.occupants[at(lane)].data() + 1);
     }
     for (const int exit : part.exits) {
-        element(state.blocks, exit), element(state.stop_lines.exit_rooms, exit), element(model.connections_to, exit);
-        const std::vector<int>& connections = model.connections_to[at(exit)];
+        element(state.blocks, exit), element(state.stop_lines.exit_rooms, exit);
+        const std::span<const int> connections = model.connections_to.of(exit);
         add(connections.data(), connections.data() + connections.size());
     }
     part.cache_lines = lines.sorted();

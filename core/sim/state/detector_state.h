@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/containers/packed_lists.h"
+
 namespace stopline {
 
 struct DetectorState {
-    std::vector<std::vector<int>> on_lane;  // [lane] indices of the detectors on the lane
+    PackedLists<int> on_lane;   // [lane] indices of the detectors on the lane
     std::vector<int> upstream;  // [detector] number of vehicles on the detector's lane that are still upstream of it
     // [detector] tick at the end of the step in which a front passed the detector last; -1: never
     std::vector<std::int64_t> last_crossing_tick;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/containers/bitset.h"
@@ -48,9 +49,8 @@ struct YieldStops {
 };
 
 struct JunctionState {
-    std::vector<std::vector<JunctionOccupant>> occupants;  // [connection] occupants, furthest downstream first
-    // [connection] slots of the vehicles on the approach lane for which right of way on this connection must be decided
-    std::vector<std::vector<int>> approaching;
+    std::vector<int> occupants_place;    // [lane] place in Partition::occupants
+    std::vector<int> approaching_place;  // [lane] place in Partition::approaching
     // [lane] index of the lane's yield stops in Partition::yield_stops; -1: the lane has none in this step
     std::vector<int> yield_stops_index;
     // Sets of connections. In each set, LanePlan::bitset_index is the index of a connection's bit.
@@ -68,6 +68,8 @@ struct State;
 void add_yield_stop(JunctionState& junctions, Partition& part, int lane, const YieldStop& stop);
 // Removes all yield stops from the lanes of the partition.
 void clear_yield_stops(JunctionState& junctions, Partition& part);
+// Returns the occupants of a connection, furthest downstream first.
+std::span<const JunctionOccupant> occupants_of(const State& state, int connection);
 // Returns the yield stops of a lane. The reference is valid until the next yield stop is added in the lane's partition.
 const YieldStops& yield_stops_of(const State& state, int lane);
 

@@ -37,7 +37,7 @@ void shift_to_begin(State& state, LaneBlock& block) {
 }
 
 // Mesoscale mode: returns the size of a block for a number of vehicles, with a reserve for more.
-int capacity_for(int vehicles) { return vehicles + 1 + vehicles / 8; }
+int capacity_for(int vehicles) { return vehicles + 1 + vehicles / 16; }
 
 // Returns the number of free slots before the block of a lane. One slot is for the sentinel: a copy of the first
 // vehicle's leader, which is on a lane downstream. Before the first lane of a partition (a group of whole
@@ -58,7 +58,7 @@ void repack(State& state, const std::vector<int>& expected) {
         for (const int lane : part.lanes) slots += slots_before(part, lane) + capacity_of(lane);
     }
     slots += kSimdWidth;
-    if (slots > state.vehicles.slots) state.vehicles.grow(slots + slots / 16);
+    if (slots > state.vehicles.slots) state.vehicles.grow(slots + slots / 64);
     // First move all vehicles to the front of the arrays. Then distribute the blocks, from the last one to the first,
     // so that no block overwrites vehicles of another block.
     int next = kSimdWidth;
@@ -95,6 +95,9 @@ double shortest_vehicle_m(const Model& model) {
 void allocate_lane_blocks(const Model& model, State& state) {
     const auto lanes = static_cast<int>(model.graph.lanes.size());
     state.blocks.resize(at(lanes));
+    state.vehicles.has_several_types = model.vehicles.size() > 1;
+    state.vehicles.has_itineraries = !model.demand.trips.empty() || !model.demand.path_routes.empty();
+    state.vehicles.has_lane_changes = !state.plan.lanes_with_neighbours().empty();
     state.vehicles.has_human_drivers = model.has_human_drivers();
     state.vehicles.has_v2v_channel = model.v2v_plan.is_active;
     if (model.v2v_plan.is_active) state.vehicles.v2v.stored_messages = model.v2v_plan.stored_messages();
@@ -149,9 +152,8 @@ void shift(State& state, int lane, int slots) {
 // Enlarges the block of a lane by half of the free slots of the nearest lane that has any. Lanes of other partitions
 // are not considered. Returns false if no lane within kMaxDistance has free slots.
 bool take_from_neighbours(State& state, int lane) {
-    const LaneLocation& location = state.location_of[at(lane)];
-    const std::vector<int>& lanes = state.partitions[location.partition].lanes;
-    const auto own = static_cast<int>(location.index);
+    const std::vector<int>& lanes = state.partition_of(lane).lanes;
+    const auto own = state.location_of[at(lane)].index;
     const auto block = [&](int index) -> LaneBlock& { return state.blocks[at(lanes[at(index)])]; };
     const auto spare = [&](int index) {
         if (index < 0 || index >= static_cast<int>(lanes.size())) return 0;
@@ -191,15 +193,12 @@ void ensure_free_slot(State& state, int lane) {
 }
 
 void add_speed_target(State& state, Partition& part, int lane, const SpeedTarget& target) {
-    std::vector<SpeedTarget>& targets = state.speed_targets[at(lane)];
-    if (targets.empty()) part.lanes_with_speed_targets.push_back(lane);
-    targets.push_back(target);
-    state.queues.standing[at(lane)].last_external_tick = state.tick;
+    part.speed_targets.add(lane, target, state.speed_targets_place);
+    state.queues.standing[at(lane)].last_external_tick = static_cast<int>(state.tick);
 }
 
 void clear_speed_targets(State& state, Partition& part) {
-    for (const int lane : part.lanes_with_speed_targets) state.speed_targets[at(lane)].clear();
-    part.lanes_with_speed_targets.clear();
+    part.speed_targets.clear(state.speed_targets_place);
 }
 
 void ensure_teleport_slot(State& state) {
@@ -222,9 +221,9 @@ void set_lane_of(State& state, int lane, int slot) {
 // the bitset Partition::exit_candidates.
 void mark_occupied(State& state, int lane) {
     const LaneLocation& location = state.location_of[at(lane)];
-    state.partitions[location.partition].occupied_candidates.set(location.index);
+    state.partitions[at(location.partition)].occupied_candidates.set(at(location.index));
     if (location.exit_partition >= 0) {
-        state.partitions[at(location.exit_partition)].exit_candidates.set(location.exit_index);
+        state.partitions[at(location.exit_partition)].exit_candidates.set(at(location.exit_index));
     }
 }
 
@@ -232,7 +231,7 @@ void mark_occupied(State& state, int lane) {
 // lane has changed.
 void wake(State& state, int lane) {
     state.queues.sleeps_until_green[at(lane)] = -1;
-    state.queues.standing[at(lane)] = {0, 0, state.tick};
+    state.queues.standing[at(lane)] = {0, 0, static_cast<int>(state.tick)};
 }
 
 }  // namespace
@@ -243,7 +242,7 @@ void limit_to_maximum_speed(State& state, int lane, int slot) {
 }
 
 int append_slot(State& state, int lane) {
-    for (const int detector : state.detectors.on_lane[at(lane)]) ++state.detectors.upstream[at(detector)];
+    for (const int detector : state.detectors.on_lane.of(lane)) ++state.detectors.upstream[at(detector)];
     LaneBlock& block = state.blocks[at(lane)];
     if (block.count == 0) shift_to_begin(state, block);
     ensure_free_slot(state, lane);
@@ -264,7 +263,7 @@ int insert_slot(const Model& model, State& state, int lane, double front_m) {
         set_lane_of(state, lane, slot);
         wake(state, lane);
     }
-    for (const int detector : state.detectors.on_lane[at(lane)]) {
+    for (const int detector : state.detectors.on_lane.of(lane)) {
         if (front_m >= model.detectors[at(detector)].position_m) --state.detectors.upstream[at(detector)];
     }
     return slot;
@@ -286,11 +285,11 @@ int move_to_lane(const Model& model, State& state, int lane, int from, int other
     v.move(old + 1, source.count - from - 1, old);
     --source.count;
     if (!v.has_powertrain()) v.clear_slot(source.past_last());
-    for (const int detector : state.detectors.on_lane[at(lane)]) {
+    for (const int detector : state.detectors.on_lane.of(lane)) {
         if (v.position_m[at(slot)] < model.detectors[at(detector)].position_m) --state.detectors.upstream[at(detector)];
     }
     v.position_m[at(slot)] = front_m;
-    for (const int detector : state.detectors.on_lane[at(other)]) {
+    for (const int detector : state.detectors.on_lane.of(other)) {
         if (front_m < model.detectors[at(detector)].position_m) ++state.detectors.upstream[at(detector)];
     }
     wake(state, lane);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/containers/packed_lists.h"
 #include "demand/demand_plan.h"
 #include "driver/acceleration_laws.h"
 #include "driver/acceleration_profile.h"
@@ -78,7 +79,7 @@ struct Model {
     double step_s = 0.01;
     std::uint64_t seed = 1;
     LaneGraph graph;
-    std::vector<std::vector<int>> connections_to;  // [lane] connections that lead to the lane
+    PackedLists<int> connections_to;               // [lane] connections that lead to the lane
     SignalPlans signals;                           // one for each intersection
     std::vector<PhasePriority> phase_priorities;   // right of way that changes at fixed times
     std::vector<PriorityByPhase>

@@ -10,10 +10,12 @@
 
 #include "base/containers/bitset.h"
 #include "base/containers/index_buffer.h"
+#include "base/containers/sparse_lists.h"
 #include "sim/state/delay_log.h"
 #include "sim/state/events.h"
 #include "sim/state/gap_requests.h"
 #include "sim/state/junction_state.h"
+#include "sim/state/speed_target.h"
 #include "sim/state/vehicles/full_group.h"
 #include "sim/state/vehicles/lane_group.h"
 
@@ -83,11 +85,13 @@ struct Partition {
     IndexBuffer awake;                         // occupied lanes that do not sleep (QueueState)
     IndexBuffer awake_approaches;              // awake lanes with a stop line
     IndexBuffer awake_connections;             // awake lanes that are connections
-    std::vector<int> occupied_connections;     // connections with at least one JunctionOccupant
+    SparseLists<JunctionOccupant> occupants;   // [connection] vehicles inside intersections, furthest downstream first
+    // [connection] slots of the vehicles on the approach lane for which right of way on this connection must be decided
+    SparseLists<int> approaching;
     std::vector<BrakingDemand> extra_demands;  // full dynamics: braking for hidden leaders, in the order of slots
     std::vector<int> lanes_with_yield_stops;
     std::vector<YieldStops> yield_stops;  // [index in lanes_with_yield_stops]
-    std::vector<int> lanes_with_speed_targets;
+    SparseLists<SpeedTarget> speed_targets;  // [lane] targets of the present step
     IndexBuffer stopped_slots;           // slots of stopped vehicles; valid in steps that attribute delays
     int earliest_stop_tick = 0;          // tick at which the longest stop of a vehicle in stopped_slots began
     IndexBuffer lanes_near_end;          // mesoscale mode: lanes whose first vehicle may leave the lane in this step

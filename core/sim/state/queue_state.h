@@ -15,7 +15,7 @@ struct StandingQueue {
     // Latest tick at which something other than a leader may have acted on the vehicles behind the first one: an
     // insertion, a lane change, a speed target, a stop line, a yield stop or the reaction time of a human driver at
     // its start.
-    std::int64_t last_external_tick = -1;
+    int last_external_tick = -1;
     // Index after the last vehicle that may have moved in the previous step because of a start message. This vehicle is
     // the follower of the last receiver of the message. 0: there was no message.
     int released = 0;

@@ -45,7 +45,7 @@ const YieldStops& yield_stops_of(const State& state, int lane) {
     static const YieldStops kNone;
     const int index = state.junctions.yield_stops_index[at(lane)];
     if (index < 0) return kNone;
-    return state.partitions[state.location_of[at(lane)].partition].yield_stops[at(index)];
+    return state.partition_of(lane).yield_stops[at(index)];
 }
 
 namespace {
@@ -106,12 +106,12 @@ void locate_lanes(State& state) {
         part.occupied_candidates.resize(part.lanes.size());
         part.exit_candidates.resize(part.exits.size());
         for (std::size_t index = 0; index < part.lanes.size(); ++index) {
-            state.location_of[at(part.lanes[index])].partition = number;
-            state.location_of[at(part.lanes[index])].index = index;
+            state.location_of[at(part.lanes[index])].partition = static_cast<int>(number);
+            state.location_of[at(part.lanes[index])].index = static_cast<int>(index);
         }
         for (std::size_t index = 0; index < part.exits.size(); ++index) {
             state.location_of[at(part.exits[index])].exit_partition = static_cast<int>(number);
-            state.location_of[at(part.exits[index])].exit_index = index;
+            state.location_of[at(part.exits[index])].exit_index = static_cast<int>(index);
         }
     }
 }
@@ -119,30 +119,22 @@ void locate_lanes(State& state) {
 void size_junctions(const Model& model, JunctionState& junctions, const State& state) {
     const std::size_t lanes = model.graph.lanes.size();
     junctions.yield_stops_index.assign(lanes, -1);
-    junctions.occupants.resize(lanes);
-    junctions.approaching.resize(lanes);
+    junctions.occupants_place.assign(lanes, -1);
+    junctions.approaching_place.assign(lanes, -1);
     for (Bitset* set : {&junctions.occupied, &junctions.with_stopped, &junctions.to_decide}) {
         set->resize(state.plan.bitset_size());
-    }
-    const double shortest_m = shortest_vehicle_m(model);
-    for (const Partition& part : state.partitions) {
-        for (const int lane : part.connections) {
-            constexpr std::size_t kPartlyInside = 3;  // reserve for vehicles that are only partly on the connection
-            const double fitting = state.plan.lane(lane).length_m / shortest_m;
-            junctions.occupants[at(lane)].reserve(static_cast<std::size_t>(fitting) + kPartlyInside);
-            junctions.approaching[at(lane)].reserve(8);
-        }
     }
 }
 
 void size_detectors(const Model& model, DetectorState& detectors) {
-    detectors.on_lane.resize(model.graph.lanes.size());
     detectors.upstream.assign(model.detectors.size(), 0);
     detectors.last_crossing_tick.assign(model.detectors.size(), -1);
+    std::vector<std::vector<int>> on_lane(model.graph.lanes.size());
     for (std::size_t k = 0; k < model.detectors.size(); ++k) {
         if (model.detectors[k].lane < 0) continue;
-        detectors.on_lane[at(model.detectors[k].lane)].push_back(static_cast<int>(k));
+        on_lane[at(model.detectors[k].lane)].push_back(static_cast<int>(k));
     }
+    for (const std::vector<int>& of_lane : on_lane) detectors.on_lane.add(of_lane);
 }
 
 void size_insertion(const Model& model, InsertionState& insertion) {
@@ -173,7 +165,7 @@ State make_state(const Model& model, int threads) {
     state.stop_lines.held_at_green.resize(lanes);
     state.stop_lines.exit_rooms.resize(lanes);
     size_junctions(model, state.junctions, state);
-    state.speed_targets.resize(lanes);
+    state.speed_targets_place.assign(lanes, -1);
     state.queues.standing.resize(lanes);
     state.queues.sleeps_until_green.assign(lanes, -1);
     size_detectors(model, state.detectors);

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "signals/signal_state.h"
@@ -19,7 +20,6 @@
 #include "sim/state/prescribed_acceleration.h"
 #include "sim/state/queue_state.h"
 #include "sim/state/run_records.h"
-#include "sim/state/speed_target.h"
 #include "sim/state/stop_line_state.h"
 #include "sim/state/vehicles/delay_rows.h"
 #include "sim/state/vehicles/vehicle_arrays.h"
@@ -28,10 +28,10 @@ namespace stopline {
 
 // The position of a lane in the lists of the partitions.
 struct LaneLocation {
-    std::size_t partition = 0;
-    std::size_t index = 0;       // index in Partition::lanes
-    int exit_partition = -1;     // partition that has the lane in its list of exits; -1: none
-    std::size_t exit_index = 0;  // index in Partition::exits
+    int partition = 0;
+    int index = 0;            // index in Partition::lanes
+    int exit_partition = -1;  // partition that has the lane in its list of exits; -1: none
+    int exit_index = 0;       // index in Partition::exits
 };
 
 struct State {
@@ -50,7 +50,7 @@ struct State {
     StopLines stop_lines;
     ClearingState clearing;
     JunctionState junctions;
-    std::vector<std::vector<SpeedTarget>> speed_targets;  // [lane] targets of the present step
+    std::vector<int> speed_targets_place;  // [lane] place in Partition::speed_targets
     GapCooperation gap_cooperation;
     QueueState queues;
     DetectorState detectors;
@@ -66,7 +66,16 @@ struct State {
     // Returns true if the data of all vehicles take more than about half of a second-level cache of 1 MiB. A step uses
     // about 150 bytes for each vehicle.
     bool outgrows_cache() const { return present() > 4000; }
+
+    const Partition& partition_of(int lane) const {
+        return partitions[static_cast<std::size_t>(location_of[static_cast<std::size_t>(lane)].partition)];
+    }
 };
+
+inline std::span<const JunctionOccupant> occupants_of(const State& state, int connection) {
+    const int place = state.junctions.occupants_place[static_cast<std::size_t>(connection)];
+    return place < 0 ? std::span<const JunctionOccupant>() : state.partition_of(connection).occupants.at_place(place);
+}
 
 // Returns the state before the first step, without vehicles. Makes at least `threads` partitions if the network has
 // enough intersections.

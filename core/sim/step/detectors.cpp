@@ -17,7 +17,7 @@ void pass_stop_line(const Model& model, State& state, Partition& part, int lane,
     const int next = state.vehicles.next_lane[at(slot)];
     if (state.signals.lights[at(state.plan.signal_group_for(lane, next))] != Light::red) return;
     // A vehicle whose trip ends on this lane, or whose turn the lane does not allow, does not enter the intersection.
-    if (record.trip >= 0 && next < 0) return;
+    if (next < 0 && state.vehicles.itinerary_of(at(slot)).has_trip()) return;
     // A vehicle is chosen to stop for the signal only if it is able to stop (stop_lines.cpp). If the chosen vehicle
     // passes on red, this is a violation, unless stopping needed almost maximum braking (may_overrun).
     const StopLineState& line = state.stop_lines.lines[at(lane)];

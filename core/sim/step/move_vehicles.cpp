@@ -43,7 +43,8 @@ void add_lane(const Model& model, const State& state, int lane, std::span<const 
         demand(hidden_leader_demands.front().slot, hidden_leader_demands.front().acceleration_mps2);
         hidden_leader_demands = hidden_leader_demands.subspan(1);
     }
-    for (const SpeedTarget& target : state.speed_targets[at(lane)]) {
+    const int place = state.speed_targets_place[at(lane)];
+    for (const SpeedTarget& target : state.partition_of(lane).speed_targets.at_place(place)) {
         const double acceleration_mps2 =
             (target.target_speed_mps - v.speed_mps[at(target.slot)]) / SpeedTarget::kTimeToTarget_s;
         demand(target.slot, std::max(acceleration_mps2, -target.deceleration_mps2));

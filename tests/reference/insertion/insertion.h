@@ -130,7 +130,7 @@ private:
     std::optional<Entry> entry_of(std::size_t number, int policy) const {
         const Lane& lane = w_.lane(plan(number).lane);
         const DemandPlan& demand = w_.model.demand;
-        const std::vector<int>& connections = w_.connections_to(lane.number);
+        const std::span<const int> connections = w_.connections_to(lane.number);
         const bool is_link = !connections.empty();
         if (std::any_of(connections.begin(), connections.end(),
                         [&](int connection) { return !w_.lane(connection).vehicles.empty(); }))

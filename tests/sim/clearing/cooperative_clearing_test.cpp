@@ -50,7 +50,7 @@ TEST_P(BothFidelities, EighteenVehiclesFitIntoABlockBeforeARedLight) {
             ++full_lanes;
             if (block.count == 0) continue;
             EXPECT_GE(state.vehicles.position_m[at(block.last())], state.vehicles.length_m[at(block.last())]);
-            for (const int connection : model.connections_to[at(link)])
+            for (const int connection : model.connections_to.of(link))
                 EXPECT_EQ(state.blocks[at(connection)].count, 0) << "vehicles inside the intersection";
         }
         EXPECT_EQ(full_lanes, 2);
@@ -78,7 +78,7 @@ TEST_P(BothFidelities, AVehicleWaitsUntilTheQueueOnItsExitLaneStarts) {
         const State& state = simulation.state();
         for (const int link : model.graph.links) {
             if (state.plan.lane(link).signal_group != 2) continue;
-            for (const int connection : model.connections_to[at(link)]) {
+            for (const int connection : model.connections_to.of(link)) {
                 const LaneBlock& block = state.blocks[at(connection)];
                 for (int slot = block.first; slot < block.past_last(); ++slot) {
                     EXPECT_GE(state.vehicles.speed_mps[at(slot)], kCrawlingSpeed_mps) << simulation.time_s() << " s";

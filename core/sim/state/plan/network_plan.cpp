@@ -108,10 +108,12 @@ void join_intersections(const Model& model, LaneSets& sets) {
     }
 }
 
+}  // namespace
+
 // Sets TurnOption::lane_changes of one turn for each lane of an approach.
-void count_lane_changes(const Approach& approach, std::size_t turn, std::vector<AdjacentLanes>& adjacent) {
+void NetworkPlan::count_lane_changes(const Approach& approach, std::size_t turn) {
     const auto lanes = static_cast<int>(approach.lanes.size());
-    const auto option = [&](int k) -> TurnOption& { return adjacent[at(approach.lanes[at(k)])].turn_options[turn]; };
+    const auto option = [&](int k) -> TurnOption& { return adjacent_of(approach.lanes[at(k)]).turn_options[turn]; };
     for (int k = 0; k < lanes; ++k) {
         for (int distance = 0; distance < lanes && option(k).route < 0 && option(k).lane_changes == 0; ++distance) {
             if (k + distance < lanes && option(k + distance).route >= 0) {
@@ -123,35 +125,56 @@ void count_lane_changes(const Approach& approach, std::size_t turn, std::vector<
     }
 }
 
-// Returns the neighbours and turn options of all lanes. Routes with the same first lane and the same turn form a list,
-// in descending order of their indices. TurnOption::route gets the first route of the list. `next_parallel_route` gets
-// for each route the next route of its list; -1: none.
-std::vector<AdjacentLanes> plan_adjacent_lanes(const LaneGraph& graph, const std::vector<Turn>& turns,
-                                               std::vector<int>& next_parallel_route) {
-    std::vector<AdjacentLanes> adjacent(graph.lanes.size());
+// Sets the neighbours and turn options of all lanes. Routes with the same first lane and the same turn form a list, in
+// descending order of their indices. TurnOption::route gets the first route of the list.
+void NetworkPlan::plan_adjacent_lanes(const LaneGraph& graph) {
+    std::vector<bool> has_entry(graph.lanes.size());
     for (std::size_t lane = 0; lane < graph.lanes.size(); ++lane) {
-        adjacent[lane].left = graph.lanes[lane].left;
-        adjacent[lane].right = graph.lanes[lane].right;
-        adjacent[lane].start_offset_m = graph.lanes[lane].start_offset_m;
+        const Lane& own = graph.lanes[lane];
+        has_entry[lane] = own.approach >= 0 || own.left >= 0 || own.right >= 0 || own.start_offset_m != 0.0;
+    }
+    for (const Route& route : graph.routes) has_entry[at(route.lanes[0])] = true;
+    for (const Approach& approach : graph.approaches) {
+        for (const int lane : approach.lanes) has_entry[at(lane)] = true;
+    }
+    const auto entries = static_cast<std::size_t>(std::count(has_entry.begin(), has_entry.end(), true));
+    adjacent_.reserve(entries + 1);
+    adjacent_.resize(1);
+    adjacent_index_.assign(graph.lanes.size(), 0);
+    for (std::size_t lane = 0; lane < graph.lanes.size(); ++lane) {
+        if (!has_entry[lane]) continue;
+        adjacent_index_[lane] = static_cast<int>(adjacent_.size());
+        AdjacentLanes& entry = adjacent_.emplace_back();
+        entry.left = graph.lanes[lane].left;
+        entry.right = graph.lanes[lane].right;
+        entry.start_offset_m = graph.lanes[lane].start_offset_m;
     }
     for (std::size_t route = 0; route < graph.routes.size(); ++route) {
-        AdjacentLanes& origin = adjacent[at(graph.routes[route].lanes[0])];
-        int& first_route = origin.turn_options[static_cast<std::size_t>(turns[route])].route;
-        next_parallel_route.push_back(first_route);
+        AdjacentLanes& origin = adjacent_of(graph.routes[route].lanes[0]);
+        int& first_route = origin.turn_options[static_cast<std::size_t>(turns_[route])].route;
+        next_parallel_route_.push_back(first_route);
         first_route = static_cast<int>(route);
     }
     for (const Approach& approach : graph.approaches) {
         for (std::size_t k = 0; k < approach.lanes.size(); ++k) {
-            adjacent[at(approach.lanes[k])].index = static_cast<int>(k);
+            adjacent_of(approach.lanes[k]).index = static_cast<int>(k);
         }
-        for (std::size_t turn = 0; turn < adjacent[0].turn_options.size(); ++turn) {
-            count_lane_changes(approach, turn, adjacent);
+        for (std::size_t turn = 0; turn < static_cast<std::size_t>(kMaxTurns); ++turn) {
+            count_lane_changes(approach, turn);
         }
     }
-    return adjacent;
 }
 
-}  // namespace
+// Right of way changes only in runs with changing priorities. All other runs read the areas of the model.
+void NetworkPlan::list_conflicts(const Model& model) {
+    const bool changes = !model.phase_priorities.empty() || !model.priorities_by_phase.empty();
+    if (!changes && !model.graph.conflicts.empty()) {
+        model_conflicts_ = &model.graph.conflicts;
+        return;
+    }
+    const auto lanes = static_cast<int>(model.graph.lanes.size());
+    for (int lane = 0; lane < lanes; ++lane) own_conflicts_.add(model.graph.conflicts_of(lane));
+}
 
 NetworkPlan::NetworkPlan(const Model& model)
     : speed_factor_(model.speed_factor),
@@ -166,6 +189,9 @@ NetworkPlan::NetworkPlan(const Model& model)
     const double longest_m = longest_vehicle_m(model);
     LaneSets sets(at(count));
     join_intersections(model, sets);
+    lanes_.reserve(at(count)), intersection_of_.reserve(at(count)), lane_order_.reserve(at(count));
+    may_wait_inside_.reserve(at(count)), stop_rules_.reserve(at(count)), movement_groups_.reserve(at(count));
+    diverges_.reserve(at(count));
     for (int index = 0; index < count; ++index) {
         const Lane& lane = model.graph.lanes[at(index)];
         lanes_.push_back(plan_of(model, index));
@@ -177,8 +203,8 @@ NetworkPlan::NetworkPlan(const Model& model)
         movement_groups_.push_back(lane.movement_signal_group);
         diverges_.push_back({lane.diverge_end_m, lane.origin >= 0 && lane.length_m - lane.diverge_end_m < longest_m});
         next_.add(lane.next);
-        conflicts_.add(model.graph.conflicts_of(index));
     }
+    list_conflicts(model);
     std::stable_sort(lane_order_.begin(), lane_order_.end(),
                      [this](int a, int b) { return intersection_of(a) < intersection_of(b); });
     for (const PhasePriority& changing : model.phase_priorities) {
@@ -202,26 +228,26 @@ NetworkPlan::NetworkPlan(const Model& model)
     for (const DriverPlan& driver : model.drivers)
         braking_mps2 = std::min(braking_mps2, driver.tables.deceleration_mps2);
     entry_speed_mps_ = entry_speeds_mps(model.graph, lanes_, braking_mps2);
-    adjacent_ = plan_adjacent_lanes(model.graph, turns_, next_parallel_route_);
+    plan_adjacent_lanes(model.graph);
     for (const Approach& approach : model.graph.approaches) {
         std::array<int, kMaxTurns> routes{};
         routes.fill(-1);
         for (const int lane : approach.lanes) {
             for (std::size_t turn = 0; turn < routes.size(); ++turn) {
-                routes[turn] = std::max(routes[turn], adjacent_[at(lane)].turn_options[turn].route);
+                routes[turn] = std::max(routes[turn], adjacent(lane).turn_options[turn].route);
             }
         }
         routes_with_.push_back(routes);
     }
     for (const int lane : lane_order_) {
-        if (adjacent_[at(lane)].has_neighbours()) lanes_with_neighbours_.push_back(lane);
+        if (adjacent(lane).has_neighbours()) lanes_with_neighbours_.push_back(lane);
     }
     if (!model.demand.trips.empty()) trip_lanes_ = TripLanes(model, *this);
 }
 
 void NetworkPlan::set_priority(int first, int second, Priority priority) {
     const auto set = [&](int lane, int other, bool yields, bool other_yields) {
-        for (Conflict& conflict : conflicts_.of(lane)) {
+        for (Conflict& conflict : own_conflicts_.of(lane)) {
             if (conflict.other != other) continue;
             conflict.yields = yields;
             conflict.other_yields = other_yields;

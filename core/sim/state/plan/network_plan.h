@@ -19,7 +19,7 @@ namespace stopline {
 
 class NetworkPlan {
 public:
-    // The plan keeps a pointer to the demand of the model, so the model must outlive the plan.
+    // The plan refers to the demand and the conflict areas of the model, so the model must outlive the plan.
     explicit NetworkPlan(const Model& model);
 
     const LanePlan& lane(int lane) const { return lanes_[static_cast<std::size_t>(lane)]; }
@@ -40,7 +40,9 @@ public:
     double entry_speed_mps(int lane) const { return entry_speed_mps_[static_cast<std::size_t>(lane)]; }
     std::span<const int> route(int route) const { return routes_.of(route); }
     std::span<const int> next(int lane) const { return next_.of(lane); }
-    const AdjacentLanes& adjacent(int lane) const { return adjacent_[static_cast<std::size_t>(lane)]; }
+    const AdjacentLanes& adjacent(int lane) const {
+        return adjacent_[static_cast<std::size_t>(adjacent_index_[static_cast<std::size_t>(lane)])];
+    }
     const std::vector<int>& lanes_with_neighbours() const { return lanes_with_neighbours_; }
     // Returns the index of a route with this turn that begins on any lane of the approach; -1: none.
     int route_with(int approach, Turn turn) const {
@@ -81,10 +83,13 @@ public:
         return trip_lanes_.from(demand_->trips[static_cast<std::size_t>(trip)], trip_edge, adjacent(lane).index, lanes);
     }
     STOPLINE_INLINE void prefetch_conflicts(int lane) const {
-        for (const Conflict& conflict : conflicts_.of(lane)) __builtin_prefetch(&conflict);
+        for (const Conflict& conflict : conflicts(lane)) __builtin_prefetch(&conflict);
     }
     // Returns the conflict areas of a connection, in the order from its start to its end.
-    std::span<const Conflict> conflicts(int lane) const { return conflicts_.of(lane); }
+    std::span<const Conflict> conflicts(int lane) const {
+        if (model_conflicts_ == nullptr) return own_conflicts_.of(lane);
+        return (*model_conflicts_)[static_cast<std::size_t>(lane)];
+    }
     // Sets which of two connections yields at their conflict area. Right of way can change with the phases of a signal.
     // All other data of the plan are constant during a run.
     void set_priority(int first, int second, Priority priority);
@@ -103,7 +108,9 @@ public:
     void for_each_memory_range(int lane, Visit visit) const {
         const auto element = [&](const auto& array) { visit(array.data() + lane, array.data() + lane + 1); };
         element(lanes_), element(diverges_), element(movement_groups_), element(may_wait_inside_), element(stop_rules_);
-        next_.visit_memory(lane, visit), conflicting_.visit_memory(lane, visit), conflicts_.visit_offsets(lane, visit);
+        next_.visit_memory(lane, visit), conflicting_.visit_memory(lane, visit);
+        model_conflicts_ == nullptr ? own_conflicts_.visit_offsets(lane, visit) : element(*model_conflicts_);
+        if (adjacent_index_[static_cast<std::size_t>(lane)] == 0) return;
         for (const TurnOption& option : adjacent(lane).turn_options) {
             if (option.route >= 0) routes_.visit_memory(option.route, visit);
         }
@@ -116,6 +123,12 @@ public:
     int intersection_of(int lane) const { return intersection_of_[static_cast<std::size_t>(lane)]; }
 
 private:
+    AdjacentLanes& adjacent_of(int lane) {
+        return adjacent_[static_cast<std::size_t>(adjacent_index_[static_cast<std::size_t>(lane)])];
+    }
+    void plan_adjacent_lanes(const LaneGraph& graph);
+    void count_lane_changes(const Approach& approach, std::size_t turn);
+    void list_conflicts(const Model& model);
     void number_connections(const Model& model);
 
     double speed_factor_;
@@ -126,12 +139,15 @@ private:
     std::vector<double> maximum_speeds_mps_;  // [spacing policy]; empty: no speed limiter is below a speed limit
     PackedLists<int> routes_;
     PackedLists<int> next_;
-    PackedLists<Conflict> conflicts_;
+    // [lane] conflict areas of the model; nullptr: right of way changes during the run, so the plan has its own areas
+    const std::vector<std::vector<Conflict>>* model_conflicts_ = nullptr;
+    PackedLists<Conflict> own_conflicts_;
     PackedLists<BitsetMask> conflicting_;
     std::vector<int> connections_;  // [bitset index] connection with this index; -1: unused
     std::vector<int> lane_order_;
     std::vector<int> intersection_of_;  // [lane]
-    std::vector<AdjacentLanes> adjacent_;
+    std::vector<int> adjacent_index_;      // [lane] index in adjacent_
+    std::vector<AdjacentLanes> adjacent_;  // the first element is for all lanes without routes and neighbours
     std::vector<int> lanes_with_neighbours_;
     std::vector<Turn> turns_;                              // [route]
     std::vector<std::array<int, kMaxTurns>> routes_with_;  // [approach][turn] index of a route; -1: none

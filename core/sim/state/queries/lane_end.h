@@ -10,8 +10,8 @@ namespace stopline {
 // signal there.
 inline bool is_on_last_edge(const State& state, int slot) {
     if (state.vehicles.next_lane[at(slot)] >= 0) return false;
-    const VehicleRecord& record = state.vehicles.record[at(slot)];
-    return record.trip >= 0 && state.plan.turn_of(record.route) == Turn::none;
+    return state.vehicles.itinerary_of(at(slot)).has_trip() &&
+           state.plan.turn_of(state.vehicles.record[at(slot)].route) == Turn::none;
 }
 
 // Returns true if the front of a vehicle has passed the end of its lane. On the last edge of a trip the stop line is

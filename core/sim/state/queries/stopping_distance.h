@@ -56,7 +56,7 @@ inline bool can_stop_within(const Model& model, double speed_mps, double distanc
 inline bool can_stop_after_response(const Model& model, const VehicleArrays& v, int slot, double distance_m,
                                     double deceleration_mps2) {
     const double speed = v.speed_mps[at(slot)];
-    const double lag_s = model.vehicles[at(v.type[at(slot)])].brake_lag_s;
+    const double lag_s = model.vehicles[at(v.type_of(at(slot)))].brake_lag_s;
     const double present_mps2 = std::max(static_cast<double>(v.acceleration_mps2[at(slot)]), 0.0);
     const double request_mps2 =
         v.has_powertrain() ? std::max(present_mps2, static_cast<double>(v.request_mps2[at(slot)])) : present_mps2;

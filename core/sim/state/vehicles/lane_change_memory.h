@@ -18,7 +18,6 @@ struct LaneChangeMemory {
     // the vehicle has just left that lane.
     float left_gain_mps = 0.0F;
     float right_gain_mps = 0.0F;
-    Turn third_turn = Turn::none;  // turn at the third intersection ahead; none: not known, or vehicle on a trip
     // Number of lanes from the present lane to the preferred lane, which suits the later turns best; below 0: to the
     // left.
     std::int8_t preferred_offset = 0;

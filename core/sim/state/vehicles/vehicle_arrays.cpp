@@ -10,8 +10,10 @@ template <class Visit>
 void VehicleArrays::for_each_common(Visit visit) {
     visit(position_m), visit(speed_mps), visit(acceleration_mps2), visit(length_m), visit(end_speed_mps),
         visit(is_platoon_leader);
-    visit(policy), visit(id), visit(next_lane), visit(record), visit(lane_memory), visit(stopped_since),
-        visit(standstill_gap_m), visit(type);
+    visit(policy), visit(id), visit(next_lane), visit(record), visit(stopped_since), visit(standstill_gap_m);
+    if (has_several_types) visit(type);
+    if (has_itineraries) visit(itinerary);
+    if (has_lane_changes) visit(lane_memory);
     if (has_human_drivers) visit(start_ticks);
     if (has_v2v_channel) v2v.for_each(visit);
     if (has_platoon_limit) platoon.for_each(visit);

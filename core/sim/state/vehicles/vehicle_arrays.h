@@ -61,10 +61,14 @@ struct VehicleArrays {
     // because the present lane does not allow its turn.
     LargeArray<int> next_lane;
     LargeArray<VehicleRecord> record;
-    LargeArray<LaneChangeMemory> lane_memory;
     LargeArray<int> stopped_since;  // latest tick at which the vehicle was observed in motion
     LargeArray<float> standstill_gap_m;
+    // Models with several vehicle types only; see type_of().
     LargeArray<int> type;
+    // Demand with trips or paths only; see itinerary_of().
+    LargeArray<Itinerary> itinerary;
+    // Networks with adjacent lanes only.
+    LargeArray<LaneChangeMemory> lane_memory;
     // Runs with human drivers only: number of steps since the vehicle ahead began to move (driver/human.h).
     LargeArray<int> start_ticks;
     // Runs with an active V2V channel only (V2vPlan): the messages that the vehicle has received.
@@ -75,6 +79,9 @@ struct VehicleArrays {
     int slots = 0;
     int radar_rows = 0;  // 0 in the mesoscale mode
     int v2v_rows = 0;    // 0 in the mesoscale mode
+    bool has_several_types = false;
+    bool has_itineraries = false;
+    bool has_lane_changes = false;
     bool has_human_drivers = false;
     bool has_v2v_channel = false;
     bool has_platoon_limit = false;
@@ -86,6 +93,9 @@ struct VehicleArrays {
     // Mesoscale mode: adds free slots at the end.
     void grow(int slot_count);
     bool has_powertrain() const { return v2v_rows > 0; }
+    Itinerary itinerary_of(std::size_t slot) const { return has_itineraries ? itinerary[slot] : Itinerary(); }
+    // Returns the index of the vehicle's type in Model::vehicles.
+    int type_of(std::size_t slot) const { return has_several_types ? type[slot] : 0; }
     // Copies a vehicle to a slot of another lane, without the values that depend on the lane.
     void copy(int from, int to);
     // Moves vehicles in consecutive slots to other slots of the same lane.

@@ -19,8 +19,19 @@ enum class YieldReason : std::uint8_t {
     deadlock,     // driving on would close a cycle of vehicles that block each other
 };
 
-// The struct fills one cache line. A connection is a lane inside an intersection.
-struct alignas(64) VehicleRecord {
+// The later route of a vehicle, where the demand gives it. Without trips and paths, a vehicle draws its turns.
+struct Itinerary {
+    int trip = -1;      // index of the trip in the demand; -1: no trip
+    int trip_edge = 0;  // index of the present edge in the trip; inside an intersection: index of the edge upstream
+    // Index in DemandPlan::path_routes of the route that the vehicle takes after the present one. -1: that route is
+    // drawn, or given by a trip.
+    int path = -1;
+
+    bool has_trip() const { return trip >= 0; }
+};
+
+// A connection is a lane inside an intersection.
+struct VehicleRecord {
     int route = -1;
     int route_index = 0;               // index of the current lane in the route
     int previous_lane = -1;            // lane before the current one; -1: the vehicle was inserted on the current lane
@@ -31,15 +42,11 @@ struct alignas(64) VehicleRecord {
     int yield_tick = -2;               // latest tick at which the vehicle had to wait before a conflict area
     float yield_position_m = 0.0F;     // position of the wait at yield_tick, from the start of the connection
     Turn following_turn = Turn::none;  // turn at the second intersection ahead; none: unknown or no turn
+    Turn third_turn = Turn::none;      // turn at the third intersection ahead; none: not known, or vehicle on a trip
     YieldReason yield_reason = YieldReason::priority;  // reason of the wait at yield_tick
-    int trip = -1;      // index of the trip in the demand; -1: no trip, the turns are drawn
-    int trip_edge = 0;  // index of the present edge in the trip; inside an intersection: index of the edge upstream
     int wait_since_tick = 0;  // tick at which the wait at yield_tick began
     int line_stop_tick = -1;  // tick at which the vehicle stopped at the stop line ahead for a stop sign; -1: not yet
-    // Index in DemandPlan::path_routes of the route that the vehicle takes after the present one. -1: that route is
-    // drawn, or given by a trip.
-    int path = -1;
 };
-static_assert(sizeof(VehicleRecord) == 64);
+static_assert(sizeof(VehicleRecord) == 48);  // more bytes would slow down large networks
 
 }  // namespace stopline
