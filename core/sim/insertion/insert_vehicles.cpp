@@ -104,7 +104,8 @@ void copy_longitudinal_state(const Model& model, VehicleArrays& v, std::size_t i
     v.is_platoon_leader[i] = 0.0F;
     if (!v.has_powertrain()) return;
     if (v.type_of(i) != v.type_of(leader)) {
-        const double mass_ratio = model.vehicles[at(v.type_of(i))].mass_kg / model.vehicles[at(v.type_of(leader))].mass_kg;
+        const double mass_ratio =
+            model.vehicles[at(v.type_of(i))].mass_kg / model.vehicles[at(v.type_of(leader))].mass_kg;
         v.acceleration_mps2[i] = std::min(v.acceleration_mps2[leader], 0.0F);
         v.request_mps2[i] = std::min(v.request_mps2[leader], 0.0F);
         v.brake_N[i] = v.brake_N[leader] * static_cast<float>(mass_ratio);

@@ -66,8 +66,7 @@ std::int64_t count_pairs(const Model& model, const State& state, Partition& part
 std::int64_t count_conflicts_of_lane(const Model& model, const State& state, Partition& part, int lane) {
     std::int64_t pairs = 0;
     for (const Conflict& c : state.plan.conflicts(lane)) {
-        if (c.other > lane && !occupants_of(state, c.other).empty())
-            pairs += count_pairs(model, state, part, lane, c);
+        if (c.other > lane && !occupants_of(state, c.other).empty()) pairs += count_pairs(model, state, part, lane, c);
     }
     return pairs;
 }

@@ -26,7 +26,8 @@ double lane_change_entry_speed_mps(const Model& model, const State& state, std::
                                    int slot) {
     const VehicleRecord& record = state.vehicles.record[at(slot)];
     const int exit = route.back();
-    if (record.following_turn == Turn::none || !state.vehicles.itinerary_of(at(slot)).has_trip()) return kNoLowerLimit_mps;
+    if (record.following_turn == Turn::none || !state.vehicles.itinerary_of(at(slot)).has_trip())
+        return kNoLowerLimit_mps;
     const int changes = state.plan.adjacent(exit).turn_option(record.following_turn).lane_changes;
     const DriverPlan& driver = model.driver_of(state.vehicles.policy[at(slot)]);
     const double room_m = state.plan.lane(exit).stop_line_m - driver.tables.stop.margin_m;
@@ -53,8 +54,7 @@ int best_parallel_route(const Model& model, const State& state, int route, int s
         const Itinerary itinerary = state.vehicles.itinerary_of(at(slot));
         const Turn following_turn = state.vehicles.record[at(slot)].following_turn;
         const int exit = state.plan.route(candidate).back();
-        if (!itinerary.has_trip())
-            return std::abs(state.plan.adjacent(exit).turn_option(following_turn).lane_changes);
+        if (!itinerary.has_trip()) return std::abs(state.plan.adjacent(exit).turn_option(following_turn).lane_changes);
         const int approach = model.graph.lanes[at(exit)].approach;
         const auto lane_count = static_cast<int>(model.graph.approaches[at(approach)].lanes.size());
         return state.plan.lane_changes_from(itinerary.trip, itinerary.trip_edge + 1, exit, lane_count);
@@ -138,8 +138,7 @@ void draw_later_turns(const Model& model, State& state, int lane, int slot, bool
     if (record.following_turn != Turn::none) {
         const int exit = state.plan.route(record.route).back();
         const int next_route = state.plan.route_with(model.graph.lanes[at(exit)].approach, record.following_turn);
-        record.third_turn =
-            next_route < 0 ? Turn::none : draw_turn_beyond(model, state, next_route, false);
+        record.third_turn = next_route < 0 ? Turn::none : draw_turn_beyond(model, state, next_route, false);
     }
     update_preferred_lane(model, state, lane, slot);
 }

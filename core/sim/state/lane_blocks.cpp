@@ -197,9 +197,7 @@ void add_speed_target(State& state, Partition& part, int lane, const SpeedTarget
     state.queues.standing[at(lane)].last_external_tick = static_cast<int>(state.tick);
 }
 
-void clear_speed_targets(State& state, Partition& part) {
-    part.speed_targets.clear(state.speed_targets_place);
-}
+void clear_speed_targets(State& state, Partition& part) { part.speed_targets.clear(state.speed_targets_place); }
 
 void ensure_teleport_slot(State& state) {
     if (!has_free_slot(state, state.congestion.teleporting) && !state.vehicles.has_powertrain()) repack(state, {});

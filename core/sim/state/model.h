@@ -79,9 +79,9 @@ struct Model {
     double step_s = 0.01;
     std::uint64_t seed = 1;
     LaneGraph graph;
-    PackedLists<int> connections_to;               // [lane] connections that lead to the lane
-    SignalPlans signals;                           // one for each intersection
-    std::vector<PhasePriority> phase_priorities;   // right of way that changes at fixed times
+    PackedLists<int> connections_to;              // [lane] connections that lead to the lane
+    SignalPlans signals;                          // one for each intersection
+    std::vector<PhasePriority> phase_priorities;  // right of way that changes at fixed times
     std::vector<PriorityByPhase>
         priorities_by_phase;                 // right of way of signals with phases, in the order of the signals
     std::vector<PowertrainTables> vehicles;  // the vehicle types of the population

@@ -81,19 +81,19 @@ struct Partition {
     PrefetchProgress prefetch;
 
     // These members are valid for one step.
-    IndexBuffer occupied;                      // lanes with vehicles
-    IndexBuffer awake;                         // occupied lanes that do not sleep (QueueState)
-    IndexBuffer awake_approaches;              // awake lanes with a stop line
-    IndexBuffer awake_connections;             // awake lanes that are connections
-    SparseLists<JunctionOccupant> occupants;   // [connection] vehicles inside intersections, furthest downstream first
+    IndexBuffer occupied;                     // lanes with vehicles
+    IndexBuffer awake;                        // occupied lanes that do not sleep (QueueState)
+    IndexBuffer awake_approaches;             // awake lanes with a stop line
+    IndexBuffer awake_connections;            // awake lanes that are connections
+    SparseLists<JunctionOccupant> occupants;  // [connection] vehicles inside intersections, furthest downstream first
     // [connection] slots of the vehicles on the approach lane for which right of way on this connection must be decided
     SparseLists<int> approaching;
     std::vector<BrakingDemand> extra_demands;  // full dynamics: braking for hidden leaders, in the order of slots
     std::vector<int> lanes_with_yield_stops;
-    std::vector<YieldStops> yield_stops;  // [index in lanes_with_yield_stops]
+    std::vector<YieldStops> yield_stops;     // [index in lanes_with_yield_stops]
     SparseLists<SpeedTarget> speed_targets;  // [lane] targets of the present step
-    IndexBuffer stopped_slots;           // slots of stopped vehicles; valid in steps that attribute delays
-    int earliest_stop_tick = 0;          // tick at which the longest stop of a vehicle in stopped_slots began
+    IndexBuffer stopped_slots;               // slots of stopped vehicles; valid in steps that attribute delays
+    int earliest_stop_tick = 0;              // tick at which the longest stop of a vehicle in stopped_slots began
     IndexBuffer lanes_near_end;          // mesoscale mode: lanes whose first vehicle may leave the lane in this step
     std::vector<int> lanes_to_transfer;  // lanes whose first vehicle has left the lane in this step
     std::vector<StartMessage> start_messages;  // mesoscale mode: start messages of this step

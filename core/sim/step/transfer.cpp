@@ -32,7 +32,8 @@ void transfer_first(const Model& model, State& state, int lane) {
     const int first = state.blocks[at(lane)].first;
     const int next = v.next_lane[at(first)];
     const bool leaves = next < 0;
-    if (leaves && v.itinerary_of(at(first)).has_trip() && !is_on_last_edge(state, first)) return miss_turn(model, state, lane);
+    if (leaves && v.itinerary_of(at(first)).has_trip() && !is_on_last_edge(state, first))
+        return miss_turn(model, state, lane);
     if (!leaves) ensure_free_slot(state, next);
     const int slot = state.blocks[at(lane)].first;  // ensure_free_slot() can shift the vehicle to another slot
     const bool has_trip = v.itinerary_of(at(slot)).has_trip();

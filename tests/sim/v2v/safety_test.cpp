@@ -90,7 +90,8 @@ public:
     Outcome run() {
         double position_m = track_.vehicle(0, 0).position_m;
         // The first vehicle has the powertrain of its type, so it brakes as hard as a vehicle can.
-        const PowertrainTables& tables = track_.model().vehicles[at(track_.state().vehicles.type_of(track_.slot(0, 0)))];
+        const PowertrainTables& tables =
+            track_.model().vehicles[at(track_.state().vehicles.type_of(track_.slot(0, 0)))];
         PowertrainState<double> head{};
         head.speed_mps = speed_mps_;
         head.gear = cruising_gear(tables, speed_mps_);

@@ -145,7 +145,7 @@ private:
     PackedLists<BitsetMask> conflicting_;
     std::vector<int> connections_;  // [bitset index] connection with this index; -1: unused
     std::vector<int> lane_order_;
-    std::vector<int> intersection_of_;  // [lane]
+    std::vector<int> intersection_of_;     // [lane]
     std::vector<int> adjacent_index_;      // [lane] index in adjacent_
     std::vector<AdjacentLanes> adjacent_;  // the first element is for all lanes without routes and neighbours
     std::vector<int> lanes_with_neighbours_;

@@ -44,7 +44,7 @@ struct VehicleRecord {
     Turn following_turn = Turn::none;  // turn at the second intersection ahead; none: unknown or no turn
     Turn third_turn = Turn::none;      // turn at the third intersection ahead; none: not known, or vehicle on a trip
     YieldReason yield_reason = YieldReason::priority;  // reason of the wait at yield_tick
-    int wait_since_tick = 0;  // tick at which the wait at yield_tick began
+    int wait_since_tick = 0;                           // tick at which the wait at yield_tick began
     int line_stop_tick = -1;  // tick at which the vehicle stopped at the stop line ahead for a stop sign; -1: not yet
 };
 static_assert(sizeof(VehicleRecord) == 48);  // more bytes would slow down large networks
