@@ -145,55 +145,60 @@ private:
     DelayWatch& watch_;
 };
 
-// Updates VehicleArrays::stopped_since of the vehicles on one lane. Returns the number of vehicles that have stopped
-// `interval_ticks` ago. The loop has no branches, so that the compiler can vectorise it.
-int update_stop_ticks(VehicleArrays& v, const LaneBlock& block, int now, int interval_ticks) {
-    const double* const speed_mps = v.speed_mps.data() + block.first;
-    int* const stopped_since = v.stopped_since.data() + block.first;
-    int stops = 0;
-    for (int k = 0; k < block.count; ++k) {
-        const int since = speed_mps[k] < kStoppedSpeed_mps ? stopped_since[k] : now;
-        stopped_since[k] = since;
-        stops += since == now - interval_ticks ? 1 : 0;
-    }
-    return stops;
-}
+// Finds the stopped vehicles of one lane. Updates VehicleArrays::stopped_since.
+class LaneScan {
+public:
+    LaneScan(const Model& model, State& state, Partition& part)
+        : state_(state),
+          v_(state.vehicles),
+          part_(part),
+          now_(static_cast<int>(state.tick)),
+          interval_ticks_(static_cast<int>(model.rules.watch_ticks)) {}
 
-// Splits the stopped vehicles of one lane into queues and appends the queues to the list of the partition.
-void add_queues(const State& state, int lane, Partition& part) {
-    const VehicleArrays& v = state.vehicles;
-    const LaneBlock& block = state.blocks[at(lane)];
-    const int stop_slot = state.stop_lines.stop_slot[at(lane)];
-    const YieldStops& yield_stops = yield_stops_of(state, lane);
-    const auto is_stopped = [&](int slot) { return v.speed_mps[at(slot)] < kStoppedSpeed_mps; };
-    const auto only_waits_for_leader = [&](int slot) {
-        return gap_to_leader_m(v, slot) <= kQueueGap_m && slot != stop_slot && yield_stops.find(slot) == nullptr;
-    };
-    for (int slot = block.first; slot < block.past_last(); ++slot) {
-        if (!is_stopped(slot)) continue;
-        StoppedQueue queue{.first = slot, .lane = lane, .earliest_stop_tick = v.stopped_since[at(slot)]};
-        while (slot + 1 < block.past_last() && is_stopped(slot + 1) && only_waits_for_leader(slot + 1)) {
-            ++slot;
-            queue.earliest_stop_tick = std::min(queue.earliest_stop_tick, v.stopped_since[at(slot)]);
+    void scan(int lane) {
+        const LaneBlock block = state_.blocks[at(lane)];
+        const int stop_slot = state_.stop_lines.stop_slot[at(lane)];
+        const YieldStops& yield_stops = yield_stops_of(state_, lane);
+        const double* const speed_mps = v_.speed_mps.data();
+        const int* const id = v_.id.data();
+        int* const stopped_since = v_.stopped_since.data();
+        StoppedQueue* queue = nullptr;  // queue that contains the vehicle ahead; nullptr: that vehicle moves
+        for (int slot = block.first; slot < block.past_last(); ++slot) {
+            if (speed_mps[slot] >= kStoppedSpeed_mps) {
+                stopped_since[slot] = now_;
+                queue = nullptr;
+                continue;
+            }
+            const bool joins = queue != nullptr && gap_to_leader_m(v_, slot) <= kQueueGap_m && slot != stop_slot &&
+                               yield_stops.find(slot) == nullptr;
+            if (!joins) {
+                queue = &part_.stopped_queues.emplace_back();
+                queue->first = slot;
+                queue->lane = lane;
+                queue->earliest_stop_tick = now_;
+            }
+            ++queue->count;
+            queue->earliest_stop_tick = std::min(queue->earliest_stop_tick, stopped_since[slot]);
+            part_.stops += stopped_since[slot] == now_ - interval_ticks_ ? 1 : 0;
+            part_.stopped_ids.push_back(id[slot]);
         }
-        queue.count = slot + 1 - queue.first;
-        part.stopped_queues.push_back(queue);
-        const int* const ids = v.id.data();
-        part.stopped_ids.insert(part.stopped_ids.end(), ids + queue.first, ids + queue.past_last());
     }
-}
+
+private:
+    const State& state_;
+    VehicleArrays& v_;
+    Partition& part_;
+    int now_;
+    int interval_ticks_;
+};
 
 }  // namespace
 
 void find_stopped_vehicles(const Model& model, State& state, Partition& part) {
-    const auto now = static_cast<int>(state.tick);
-    const auto interval_ticks = static_cast<int>(model.rules.watch_ticks);
     part.stopped_queues.clear();
     part.stopped_ids.clear();
-    for (const int lane : part.occupied) {
-        part.stops += update_stop_ticks(state.vehicles, state.blocks[at(lane)], now, interval_ticks);
-        add_queues(state, lane, part);
-    }
+    LaneScan scan(model, state, part);
+    for (const int lane : part.occupied) scan.scan(lane);
 }
 
 void find_wait_reasons(const Model& model, const State& state, DelayWatch& watch, Partition& part) {
