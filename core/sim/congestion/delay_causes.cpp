@@ -40,7 +40,8 @@ public:
 private:
     bool is_stopped(int slot) const { return v_.speed_mps[at(slot)] < kStoppedSpeed_mps; }
 
-    // Returns the queue that contains the stopped vehicle in `slot`. The queues of a partition are in the order of slots.
+    // Returns the queue that contains the stopped vehicle in `slot` on `lane`. The queues of a partition are in the
+    // order of slots.
     StoppedQueue& queue_of(int slot, int lane) const {
         std::vector<StoppedQueue>& queues = state_.partitions[state_.location_of[at(lane)].partition].stopped_queues;
         const auto begins_later = [](int value, const StoppedQueue& queue) { return value < queue.first; };
@@ -89,8 +90,10 @@ private:
         queue.cause = queue.direct_cause;
         if (ahead != nullptr) {
             const bool only_waits = queue.direct_cause == DelayCause::none;
-            if (only_waits) queue.head = ahead->head_of(queue.blocker);
-            if (only_waits) queue.head_lane = ahead->head_lane;
+            if (only_waits) {
+                queue.head = ahead->head_of(queue.blocker);
+                queue.head_lane = ahead->head_lane;
+            }
             if (only_waits || ahead->cause == DelayCause::gridlock) queue.cause = ahead->cause;
         }
         if (queue.cause == DelayCause::none) queue.cause = DelayCause::queue_discharge;
@@ -159,14 +162,8 @@ private:
         for (std::size_t cause = 0; cause < vehicles.size(); ++cause) {
             log_.delay_s[cause] += interval_s_ * vehicles[cause];
         }
-        add_intervals(log_.delay_upstream_s, vehicles_upstream);
+        log_.delay_upstream_s += interval_s_ * vehicles_upstream;
         log_.longest_stop_s = std::max(log_.longest_stop_s, model_.time_s(now_ - earliest_tick));
-    }
-
-    // Adds the interval between two observations `count` times. A product could round differently, and the result would
-    // then depend on how vehicles are grouped into queues.
-    void add_intervals(double& sum_s, int count) const {
-        for (int k = 0; k < count; ++k) sum_s += interval_s_;
     }
 
     // Returns the number of vehicles of a queue whose delay belongs to an episode.
@@ -195,7 +192,7 @@ private:
             episode.to_s = now_s_;
             episode.current_vehicles = 0;
         }
-        add_intervals(episode.delay_s, vehicles);
+        episode.delay_s += interval_s_ * vehicles;
         episode.current_vehicles += vehicles;
         episode.max_vehicles = std::max(episode.max_vehicles, episode.current_vehicles);
     }
@@ -225,8 +222,7 @@ private:
     // waits for a lane change can starve, too.
     bool starves(const StoppedQueue& queue) const {
         const std::int64_t least_ticks = model_.rules.starvation_ticks;
-        if (least_ticks == 0 || now_ - queue.earliest_stop_tick < least_ticks) return false;
-        return now_ - unblocked_since(queue) >= least_ticks && has_stood_two_cycles(queue);
+        return least_ticks > 0 && now_ - unblocked_since(queue) >= least_ticks && has_stood_two_cycles(queue);
     }
 
     // Returns true if the first vehicle has stood for two cycles of its signal without a blockage ahead, or has no
