@@ -15,6 +15,7 @@
 #include "runs/network/network_run.h"
 #include "runs/observation.h"
 #include "scenario/scenario_text.h"
+#include "sim/state/queries/stopped_vehicles.h"
 
 namespace stopline {
 namespace {
@@ -78,10 +79,8 @@ Recorded record_run(const Scenario& scenario, const fs::path& file, const Record
         const std::vector<const LinkKind*> kinds = link_kinds_of(model);
         for (std::size_t k = 0; k < kinds.size(); ++k) kinds[k]->add(state, static_cast<int>(k), result.links.back());
         result.causes.emplace_back();
-        for (const int slot : state.congestion.watch.stopped_slots) {
-            const auto k = static_cast<std::size_t>(slot);
-            result.causes.back()[state.congestion.watch.vehicle[k]] = state.congestion.watch.cause[k];
-        }
+        for_each_stopped_vehicle(
+            state, [&](const StoppedVehicle& stopped) { result.causes.back()[stopped.vehicle] = stopped.cause; });
     };
     result.hash = run_network(scenario, 2, {}, 1, observation).state_hash;
     result.size = recorder->finish();

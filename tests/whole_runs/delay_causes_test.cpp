@@ -16,6 +16,7 @@
 #include "sim/junction/occupants.h"
 #include "sim/junction/right_of_way.h"
 #include "sim/junction/stop_lines.h"
+#include "sim/state/queries/stopped_vehicles.h"
 #include "sim/step/occupied_lanes.h"
 #include "support/track.h"
 
@@ -102,6 +103,9 @@ protected:
         watch_delays(model, state());
     }
 
+    // Returns what the delay watch knows about a vehicle that must be stopped.
+    StoppedVehicle stopped_vehicle(int id) { return find_stopped_vehicle(state(), id).value(); }
+
     double delay_s(DelayCause cause) { return state().congestion.delays.delay_s[static_cast<std::size_t>(cause)]; }
 
     Track track_;
@@ -151,9 +155,8 @@ TEST_F(DelayCauses, FullExitLaneIsSpillbackOrTurnBlocking) {
 // The keep-clear rule has held a vehicle because of a blocker in its exit lane. When the signal is red, the vehicle
 // still counts as waiting for this blocker, until the blocker has moved.
 TEST_F(DelayCauses, VehicleAtARedLightStillWaitsForItsLastBlocker) {
-    place_stopped("c1r0_west_in_0", 4.0, "c1r0_west_0_straight");
-    place_stopped("c0r0_west_in_0", 154.0, "c0r0_west_0_straight");
-    const int first = state().blocks[at(lane("c0r0_west_in_0"))].first;
+    const int blocker = place_stopped("c1r0_west_in_0", 4.0, "c1r0_west_0_straight");
+    const int first = place_stopped("c0r0_west_in_0", 154.0, "c0r0_west_0_straight");
     const int blocker_slot = state().blocks[at(lane("c1r0_west_in_0"))].first;
     attribute();
     EXPECT_EQ(delay_s(DelayCause::spillback), 1.0);
@@ -163,22 +166,20 @@ TEST_F(DelayCauses, VehicleAtARedLightStillWaitsForItsLastBlocker) {
         if (moves) state().vehicles.speed_mps[at(blocker_slot)] = 1.0;
         attribute();
         state().vehicles.speed_mps[at(blocker_slot)] = 0.0;
-        EXPECT_EQ(state().congestion.watch.waits_for[at(first)], moves ? -1 : blocker_slot);
+        EXPECT_EQ(stopped_vehicle(first).waits_for, moves ? -1 : blocker);
     }
     state().tick += track_.model().rules.watch_ticks;
     attribute();
-    EXPECT_EQ(state().congestion.watch.waits_for[at(first)], -1) << "the blocker has moved and stopped again";
+    EXPECT_EQ(stopped_vehicle(first).waits_for, -1) << "the blocker has moved and stopped again";
     EXPECT_EQ(delay_s(DelayCause::spillback), 1.0);
 }
 
 TEST_F(DelayCauses, VehicleAtARedLightAlsoWaitsForALeaderInTheJunction) {
-    place_stopped("c0r0_south_0_straight", 3.0);
-    place_stopped("c0r0_south_in_0", 152.0, "c0r0_south_0_straight");
+    const int leader = place_stopped("c0r0_south_0_straight", 3.0);
+    const int waiting_vehicle = place_stopped("c0r0_south_in_0", 152.0, "c0r0_south_0_straight");
     attribute();
-    const int waiting_slot = state().blocks[at(lane("c0r0_south_in_0"))].first;
-    EXPECT_EQ(state().congestion.watch.direct_cause[at(waiting_slot)], DelayCause::signal);
-    EXPECT_EQ(state().congestion.watch.waits_for[at(waiting_slot)],
-              state().blocks[at(lane("c0r0_south_0_straight"))].first);
+    EXPECT_EQ(stopped_vehicle(waiting_vehicle).direct_cause, DelayCause::signal);
+    EXPECT_EQ(stopped_vehicle(waiting_vehicle).waits_for, leader);
     EXPECT_EQ(delay_s(DelayCause::signal), 1.0);
 }
 

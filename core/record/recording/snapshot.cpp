@@ -4,6 +4,7 @@
 
 #include "base/containers/index.h"
 #include "record/recording/recording_format.h"
+#include "sim/state/queries/stopped_vehicles.h"
 
 namespace stopline {
 
@@ -34,13 +35,11 @@ bool differ(const int* a, const int* b, int count) {
     return bits != 0;
 }
 
-void copy_stopped(const DelayWatch& watch, std::vector<Snapshot::StoppedVehicle>& stopped) {
-    stopped.resize(watch.stopped_slots.size());
-    for (std::size_t k = 0; k < stopped.size(); ++k) {
-        const std::size_t slot = at(watch.stopped_slots[k]);
-        const int ahead = watch.waits_for[slot];
-        stopped[k] = {watch.vehicle[slot], ahead < 0 ? -1 : watch.vehicle[at(ahead)], watch.cause[slot]};
-    }
+void copy_stopped(const State& state, std::vector<Snapshot::StoppedVehicle>& copies) {
+    copies.clear();
+    for_each_stopped_vehicle(state, [&](const StoppedVehicle& stopped) {
+        copies.push_back({stopped.vehicle, stopped.waits_for, stopped.cause});
+    });
 }
 
 }  // namespace
@@ -79,7 +78,7 @@ void SnapshotTaker::take(const State& state, bool with_stopped, Snapshot& snapsh
         add_beyond_stop_line(vehicles, static_cast<int>(lane), motion, snapshot);
         motion += slots.count;
     }
-    if (with_stopped) copy_stopped(state.congestion.watch, snapshot.stopped);
+    if (with_stopped) copy_stopped(state, snapshot.stopped);
     snapshot.links.clear();
     for (std::size_t k = 0; k < link_kinds_.size(); ++k)
         link_kinds_[k]->add(state, static_cast<int>(k), snapshot.links);

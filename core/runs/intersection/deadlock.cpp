@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/containers/index.h"
+#include "sim/state/queries/stopped_vehicles.h"
 
 namespace stopline {
 
@@ -34,7 +35,7 @@ void DeadlockSearch::observe(const State& state) {
     if (deadlock_) {
         // The vehicle may have been moving slowly when the deadlock was found. The members are listed as soon as the
         // delay watch finds it stopped.
-        if (deadlock_->members.empty()) deadlock_->members = members_from(state.congestion.watch, deadlock_->vehicle);
+        if (deadlock_->members.empty()) deadlock_->members = members_from(state, deadlock_->vehicle);
         return;
     }
     if (state.records.longest_in_junction < limit_ticks_) return;
@@ -50,24 +51,21 @@ void DeadlockSearch::observe(const State& state) {
     }
     if (found.lane >= 0) found.vehicle = vehicle_since(state, found.lane, earliest_tick);
     found.from_s = model_.time_s(earliest_tick);
-    found.members = members_from(state.congestion.watch, found.vehicle);
+    found.members = members_from(state, found.vehicle);
     deadlock_ = found;
 }
 
-// The delay watch holds the slots of its latest observation, which is at most one interval old. Since then, vehicles
-// may have got other slots, so they are identified by their ids.
-std::vector<DeadlockMember> DeadlockSearch::members_from(const DelayWatch& watch, int vehicle) {
+std::vector<DeadlockMember> DeadlockSearch::members_from(const State& state, int vehicle) {
     std::vector<DeadlockMember> members;
-    const auto stopped = std::find_if(watch.stopped_slots.begin(), watch.stopped_slots.end(),
-                                      [&](int slot) { return watch.vehicle[at(slot)] == vehicle; });
-    for (int slot = stopped == watch.stopped_slots.end() ? -1 : *stopped; slot >= 0;) {
-        const int blocker = watch.waits_for[at(slot)];
-        members.push_back({watch.vehicle[at(slot)], watch.lane[at(slot)], watch.direct_cause[at(slot)],
-                           blocker < 0 ? -1 : watch.vehicle[at(blocker)]});
-        const auto is_listed = [&](const DeadlockMember& one) { return one.vehicle == members.back().waits_for; };
-        const bool is_stopped = std::count(watch.stopped_slots.begin(), watch.stopped_slots.end(), blocker) > 0;
-        if (!is_stopped || std::any_of(members.begin(), members.end(), is_listed)) break;
-        slot = blocker;
+    const auto is_listed = [&](int id) {
+        return std::any_of(members.begin(), members.end(),
+                           [&](const DeadlockMember& one) { return one.vehicle == id; });
+    };
+    while (!is_listed(vehicle)) {
+        const std::optional<StoppedVehicle> stopped = find_stopped_vehicle(state, vehicle);
+        if (!stopped) break;
+        members.push_back({vehicle, stopped->lane, stopped->direct_cause, stopped->waits_for});
+        vehicle = stopped->waits_for;
     }
     return members;
 }

@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/state/congestion_state.h"
+#include "sim/state/delay_log.h"
+#include "sim/state/state.h"
 #include "sim/step/simulation.h"
 
 namespace stopline {
@@ -42,7 +43,7 @@ public:
     const std::optional<Deadlock>& deadlock() const { return deadlock_; }
 
 private:
-    static std::vector<DeadlockMember> members_from(const DelayWatch& watch, int vehicle);
+    static std::vector<DeadlockMember> members_from(const State& state, int vehicle);
 
     const Model& model_;
     std::int64_t limit_ticks_;

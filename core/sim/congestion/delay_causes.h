@@ -20,12 +20,12 @@ namespace stopline {
 // Returns true if delays are attributed in this step.
 bool delay_watch_is_due(const Model& model, const State& state);
 
-// Allocates the working memory of the delay attribution.
-void prepare_delay_watch(const Model& model, const State& state, DelayWatch& watch);
+// Allocates the memory of the delay watch.
+void prepare_delay_watch(const Model& model, DelayWatch& watch);
 
 // Attributes the delay of all stopped vehicles. In this step, find_stopped_vehicles() and find_wait_reasons() must have
 // run for all partitions before.
-void attribute_delays(const Model& model, const State& state, CongestionState& congestion);
+void attribute_delays(const Model& model, State& state);
 
 // Attributes the delays on one thread: lists the stopped vehicles, finds their blockers, and calls attribute_delays().
 void watch_delays(const Model& model, State& state);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
+#include <vector>
 
 #include "base/containers/index.h"
 #include "base/speed_thresholds.h"
@@ -15,73 +17,96 @@ namespace {
 constexpr double kQueueGap_m = 15.0;     // largest net gap between stopped vehicles of one queue
 constexpr double kSearchRange_m = 30.0;  // range of the search for a leader downstream of the lane
 
+double gap_to_leader_m(const VehicleArrays& v, int slot) {
+    const std::size_t leader = at(slot - 1);
+    return v.position_m[leader] - static_cast<double>(v.length_m[leader]) - v.position_m[at(slot)];
+}
+
+// Returns the lane whose block contains `slot`. The blocks are in the order of NetworkPlan::lane_order().
+int lane_of(const State& state, int slot) {
+    const std::vector<int>& lanes = state.plan.lane_order();
+    const auto begins_later = [&](int value, int lane) { return value < state.blocks[at(lane)].begin; };
+    return *std::prev(std::upper_bound(lanes.begin(), lanes.end(), slot, begins_later));
+}
+
 class WaitSearch {
 public:
     WaitSearch(const Model& model, const State& state, DelayWatch& watch)
-        : model_(model), state_(state), v_(state.vehicles), w_(watch) {}
+        : model_(model), state_(state), v_(state.vehicles), watch_(watch) {}
 
-    void find(int slot) {
-        const int lane = w_.lane[at(slot)];
-        find_direct_cause(slot, lane);
-        if (slot != state_.stop_lines.stop_slot[at(lane)] && slot != state_.blocks[at(lane)].first) return;
-        LastBlocker& last = w_.last_blockers[at(lane)];
-        int& waits_for = w_.waits_for[at(slot)];
-        if (w_.direct_cause[at(slot)] == DelayCause::signal) {
+    void find(StoppedQueue& queue) {
+        find_direct_cause(queue);
+        LastBlocker& last = watch_.lanes[at(queue.lane)].last_blocker;
+        const int vehicle = v_.id[at(queue.first)];
+        const bool is_first = is_at_stop_line(queue) || is_first_on_lane(queue);
+        if (is_first && queue.direct_cause == DelayCause::signal) {
             // A vehicle at a red signal can have a blocker as well: a leader stopped past the stop line, or the vehicle
             // that blocked the waiting vehicle during the previous green. wait_for_leader() overwrites the direct
             // cause, so the cause is set to `signal` again.
-            wait_for_leader(slot, lane);
-            w_.direct_cause[at(slot)] = DelayCause::signal;
-            if (waits_for < 0) waits_for = find_unmoved_blocker(last, v_.id[at(slot)]);
-        } else if (waits_for >= 0) {
-            last = {v_.id[at(slot)], v_.id[at(waits_for)], w_.lane[at(waits_for)], static_cast<int>(state_.tick)};
+            wait_for_leader(queue);
+            queue.direct_cause = DelayCause::signal;
+            if (queue.blocker < 0) queue.blocker = find_unmoved_blocker(last, vehicle);
+        }
+        if (queue.blocker < 0) return;
+        queue.blocker_id = v_.id[at(queue.blocker)];
+        queue.blocker_lane = lane_of_blocker(queue);
+        if (is_first && queue.direct_cause != DelayCause::signal) {
+            last = {vehicle, queue.blocker_id, queue.blocker_lane, static_cast<int>(state_.tick)};
         }
     }
 
 private:
     bool is_stopped(int slot) const { return v_.speed_mps[at(slot)] < kStoppedSpeed_mps; }
+    bool is_at_stop_line(const StoppedQueue& queue) const {
+        return queue.first == state_.stop_lines.stop_slot[at(queue.lane)];
+    }
+    bool is_first_on_lane(const StoppedQueue& queue) const {
+        return queue.first == state_.blocks[at(queue.lane)].first;
+    }
 
-    // Finds the blocker of a stopped vehicle, and the cause that stops this vehicle itself. A moving vehicle counts as
-    // the blocker only if the stopped vehicle waits for it under the keep-clear rule.
-    void find_direct_cause(int slot, int lane) {
-        if (const YieldStop* const stop = yield_stop_of(slot, lane); stop != nullptr) {
-            if (stop->reason == YieldReason::lane_change) return set(slot, -1, DelayCause::wrong_lane);
+    // Finds the blocker of the first vehicle of a queue, and the cause that stops this vehicle itself. A moving vehicle
+    // counts as the blocker only if the stopped vehicle waits for it under the keep-clear rule.
+    void find_direct_cause(StoppedQueue& queue) const {
+        if (const YieldStop* const stop = yield_stops_of(state_, queue.lane).find(queue.first); stop != nullptr) {
+            if (stop->reason == YieldReason::lane_change) return set(queue, -1, DelayCause::wrong_lane);
             const bool blocker_stopped = stop->blocker >= 0 && is_stopped(stop->blocker);
             const bool blocked = stop->reason != YieldReason::priority && blocker_stopped;
-            return set(slot, blocker_stopped ? stop->blocker : -1,
+            return set(queue, blocker_stopped ? stop->blocker : -1,
                        blocked ? DelayCause::junction_blocking : DelayCause::yielding);
         }
-        if (slot == state_.stop_lines.stop_slot[at(lane)]) {
-            const KeepClearHold& hold = state_.stop_lines.held_at_green[at(lane)];
-            if (hold.is_refusal) return set(slot, hold.blocker, DelayCause::refusal);
-            if (hold.blocker < 0) return set(slot, -1, DelayCause::signal);
-            return set(slot, hold.blocker, hold.in_exit ? full_exit_cause(slot) : DelayCause::junction_blocking);
+        if (is_at_stop_line(queue)) {
+            const KeepClearHold& hold = state_.stop_lines.held_at_green[at(queue.lane)];
+            if (hold.is_refusal) return set(queue, hold.blocker, DelayCause::refusal);
+            if (hold.blocker < 0) return set(queue, -1, DelayCause::signal);
+            return set(queue, hold.blocker, hold.in_exit ? full_exit_cause(queue) : DelayCause::junction_blocking);
         }
-        wait_for_leader(slot, lane);
+        wait_for_leader(queue);
     }
 
-    const YieldStop* yield_stop_of(int slot, int lane) const { return yield_stops_of(state_, lane).find(slot); }
-
-    void set(int slot, int waits_for, DelayCause cause) {
-        w_.waits_for[at(slot)] = waits_for;
-        w_.direct_cause[at(slot)] = cause;
+    static void set(StoppedQueue& queue, int blocker, DelayCause cause) {
+        queue.blocker = blocker;
+        queue.direct_cause = cause;
     }
 
-    void wait_for_leader(int slot, int lane) {
-        const LaneBlock& block = state_.blocks[at(lane)];
-        int leader = slot - 1;
-        double gap_m =
-            v_.position_m[at(leader)] - static_cast<double>(v_.length_m[at(leader)]) - v_.position_m[at(slot)];
-        if (slot == block.first) {
-            const LeaderAhead ahead = leader_ahead(state_, lane, slot, kSearchRange_m);
-            leader = ahead.slot;
-            if (leader >= 0) {
-                gap_m = ahead.lane_start_m + v_.position_m[at(leader)] - static_cast<double>(v_.length_m[at(leader)]) -
-                        v_.position_m[at(slot)];
-            }
-        }
-        if (leader < 0 || !is_stopped(leader) || gap_m > kQueueGap_m) return set(slot, -1, DelayCause::none);
-        set(slot, leader, is_exit_of(lane, w_.lane[at(leader)]) ? full_exit_cause(slot) : DelayCause::none);
+    void wait_for_leader(StoppedQueue& queue) const {
+        if (is_first_on_lane(queue)) return wait_for_leader_beyond_lane(queue);
+        const bool waits = is_stopped(queue.first - 1) && gap_to_leader_m(v_, queue.first) <= kQueueGap_m;
+        set(queue, waits ? queue.first - 1 : -1, DelayCause::none);
+    }
+
+    void wait_for_leader_beyond_lane(StoppedQueue& queue) const {
+        set(queue, -1, DelayCause::none);
+        const LeaderAhead ahead = leader_ahead(state_, queue.lane, queue.first, kSearchRange_m);
+        if (ahead.slot < 0 || !is_stopped(ahead.slot)) return;
+        const double gap_m = ahead.lane_start_m + v_.position_m[at(ahead.slot)] -
+                             static_cast<double>(v_.length_m[at(ahead.slot)]) - v_.position_m[at(queue.first)];
+        if (gap_m > kQueueGap_m) return;
+        const bool in_exit = is_exit_of(queue.lane, lane_of(state_, ahead.slot));
+        set(queue, ahead.slot, in_exit ? full_exit_cause(queue) : DelayCause::none);
+    }
+
+    int lane_of_blocker(const StoppedQueue& queue) const {
+        return state_.blocks[at(queue.lane)].has(queue.blocker) ? queue.lane : lane_of(state_, queue.blocker);
     }
 
     // Returns the slot of the vehicle that blocked `vehicle` during the previous green, if this blocker has not moved
@@ -104,12 +129,12 @@ private:
         });
     }
 
-    // Returns the delay cause of a vehicle whose exit lane is full: turn blocking if the vehicle turns, else spillback.
-    DelayCause full_exit_cause(int slot) const {
-        const int lane = w_.lane[at(slot)];
-        const bool is_inside = model_.graph.lanes[at(lane)].origin >= 0;
+    // Returns the delay cause of a queue whose exit lane is full: turn blocking if its first vehicle turns, else
+    // spillback.
+    DelayCause full_exit_cause(const StoppedQueue& queue) const {
+        const bool is_inside = model_.graph.lanes[at(queue.lane)].origin >= 0;
         // Connection that the vehicle takes; -1: none.
-        const int connection = is_inside ? lane : v_.next_lane[at(slot)];
+        const int connection = is_inside ? queue.lane : v_.next_lane[at(queue.first)];
         const bool turns = connection >= 0 && model_.graph.lanes[at(connection)].turn != Turn::straight;
         return turns ? DelayCause::turn_blocking : DelayCause::spillback;
     }
@@ -117,40 +142,68 @@ private:
     const Model& model_;
     const State& state_;
     const VehicleArrays& v_;
-    DelayWatch& w_;
+    DelayWatch& watch_;
+};
+
+// Finds the stopped vehicles of one lane. Updates VehicleArrays::stopped_since.
+class LaneScan {
+public:
+    LaneScan(const Model& model, State& state, Partition& part)
+        : state_(state),
+          v_(state.vehicles),
+          part_(part),
+          now_(static_cast<int>(state.tick)),
+          interval_ticks_(static_cast<int>(model.rules.watch_ticks)) {}
+
+    void scan(int lane) {
+        const LaneBlock block = state_.blocks[at(lane)];
+        const int stop_slot = state_.stop_lines.stop_slot[at(lane)];
+        const YieldStops& yield_stops = yield_stops_of(state_, lane);
+        const double* const speed_mps = v_.speed_mps.data();
+        const int* const id = v_.id.data();
+        int* const stopped_since = v_.stopped_since.data();
+        StoppedQueue* queue = nullptr;  // queue that contains the vehicle ahead; nullptr: that vehicle moves
+        for (int slot = block.first; slot < block.past_last(); ++slot) {
+            if (speed_mps[slot] >= kStoppedSpeed_mps) {
+                stopped_since[slot] = now_;
+                queue = nullptr;
+                continue;
+            }
+            const bool joins = queue != nullptr && gap_to_leader_m(v_, slot) <= kQueueGap_m && slot != stop_slot &&
+                               yield_stops.find(slot) == nullptr;
+            if (!joins) {
+                queue = &part_.stopped_queues.emplace_back();
+                queue->first = slot;
+                queue->lane = lane;
+                queue->earliest_stop_tick = now_;
+            }
+            ++queue->count;
+            queue->earliest_stop_tick = std::min(queue->earliest_stop_tick, stopped_since[slot]);
+            part_.stops += stopped_since[slot] == now_ - interval_ticks_ ? 1 : 0;
+            part_.stopped_ids.push_back(id[slot]);
+        }
+    }
+
+private:
+    const State& state_;
+    VehicleArrays& v_;
+    Partition& part_;
+    int now_;
+    int interval_ticks_;
 };
 
 }  // namespace
 
 void find_stopped_vehicles(const Model& model, State& state, Partition& part) {
-    DelayWatch& w = state.congestion.watch;
-    const auto now = static_cast<int>(state.tick);
-    const double* const speed_mps = state.vehicles.speed_mps.data();
-    const int* const id = state.vehicles.id.data();
-    int* const stopped_since = state.vehicles.stopped_since.data();
-    part.earliest_stop_tick = now;
-    part.stopped_slots.reset(static_cast<std::size_t>(part.present));
-    for (const int lane : part.occupied) {
-        const LaneBlock& block = state.blocks[at(lane)];
-        std::fill_n(w.lane.begin() + block.first, block.count, lane);
-        std::copy_n(id + block.first, block.count, w.vehicle.begin() + block.first);
-        for (int slot = block.first; slot < block.past_last(); ++slot) {
-            if (speed_mps[slot] >= kStoppedSpeed_mps) {
-                stopped_since[slot] = now;
-                continue;
-            }
-            part.stops += stopped_since[slot] + model.rules.watch_ticks == state.tick ? 1 : 0;
-            w.traversal[at(slot)] = 0;
-            w.cause[at(slot)] = DelayCause::none;
-            part.earliest_stop_tick = std::min(part.earliest_stop_tick, stopped_since[slot]);
-            part.stopped_slots.push(slot);
-        }
-    }
+    part.stopped_queues.clear();
+    part.stopped_ids.clear();
+    LaneScan scan(model, state, part);
+    for (const int lane : part.occupied) scan.scan(lane);
 }
 
-void find_wait_reasons(const Model& model, const State& state, DelayWatch& watch, const Partition& part) {
+void find_wait_reasons(const Model& model, const State& state, DelayWatch& watch, Partition& part) {
     WaitSearch search(model, state, watch);
-    for (const int slot : part.stopped_slots) search.find(slot);
+    for (StoppedQueue& queue : part.stopped_queues) search.find(queue);
 }
 
 }  // namespace stopline

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/state/delay_log.h"
+#include "sim/state/stopped_queue.h"
 #include "sim/state/vehicles/vehicle_arrays.h"
 
 namespace stopline {
@@ -23,30 +24,26 @@ struct LastBlocker {
     int tick = 0;           // latest tick at which the blocker was observed
 };
 
-// Working memory of delay attribution. The arrays indexed by slot are valid only in the step that attributed the
-// delays, because vehicles change slots. Their elements are set only for stopped vehicles (slower than 0.1 m/s), except
-// where a comment includes moving vehicles.
+// What the delay watch remembers of a lane.
+struct LaneWatch {
+    LastBlocker last_blocker;
+    // Latest tick at which vehicles ahead blocked the way of the first vehicle of a queue on this lane; 0: none.
+    int last_blocked_tick = 0;
+    int open_episode = -1;  // index in DelayWatch::open_episodes of an open episode on this lane; -1: none
+};
+
+// A period of delay that is not over. The open episodes of a lane form a linked list.
+struct OpenEpisode {
+    int episode = -1;  // index in DelayLog::episodes
+    int next = -1;     // index in DelayWatch::open_episodes of the next open episode on the same lane; -1: none
+};
+
+// Memory of the delay watch. The stopped vehicles are in the lists of the partitions (Partition::stopped_queues).
 struct DelayWatch {
-    std::vector<int> waits_for;  // [slot] slot of the vehicle that blocks this vehicle; -1: none
-    // [slot] cause that stops the vehicle itself. DelayCause::none: the vehicle only waits behind a stopped leader, or
-    // nothing stops the vehicle.
-    std::vector<DelayCause> direct_cause;
-    std::vector<DelayCause> cause;  // [slot] cause to which the delay of the vehicle is attributed
-    std::vector<int> queue_head;    // [slot] slot of the first vehicle of the queue to which the vehicle belongs
-    std::vector<int> lane;          // [slot] lane of the vehicle, also for moving vehicles
-    std::vector<int> vehicle;       // [slot] id of the vehicle, also for moving vehicles
-    // [slot] number of the chain that contains the vehicle; 0: none yet. A chain leads from a waiting vehicle to its
-    // blocker, to the blocker of the blocker, and so on. find_causes() numbers the chains from 1.
-    std::vector<int> traversal;
-    std::vector<int> path;                   // slots of the vehicles in the chain that find_causes() follows at present
-    std::vector<int> stopped_slots;          // slots of all stopped vehicles
-    std::vector<LastBlocker> last_blockers;  // [lane]
-    // [lane] latest tick at which vehicles ahead blocked the way of the first vehicle of a queue on this lane; 0: none
-    std::vector<std::int64_t> last_blocked_tick;
-    // [key] index of the open episode in DelayLog::episodes; -1: none. key = lane * number of causes + cause
-    std::vector<int> open_episode;
-    std::vector<int> open_episodes;   // keys of all open episodes
-    std::vector<int> open_gridlocks;  // indices of the open gridlocks in DelayLog::gridlocks
+    std::vector<LaneWatch> lanes;            // [lane]
+    std::vector<OpenEpisode> open_episodes;  // in the order in which they began
+    std::vector<int> open_gridlocks;         // indices of the open gridlocks in DelayLog::gridlocks
+    std::vector<StoppedQueue*> path;         // queues in the chain that find_causes() follows at present
 };
 
 struct CongestionState {

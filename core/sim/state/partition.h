@@ -16,6 +16,7 @@
 #include "sim/state/gap_requests.h"
 #include "sim/state/junction_state.h"
 #include "sim/state/speed_target.h"
+#include "sim/state/stopped_queue.h"
 #include "sim/state/vehicles/full_group.h"
 #include "sim/state/vehicles/lane_group.h"
 
@@ -92,8 +93,9 @@ struct Partition {
     std::vector<int> lanes_with_yield_stops;
     std::vector<YieldStops> yield_stops;     // [index in lanes_with_yield_stops]
     SparseLists<SpeedTarget> speed_targets;  // [lane] targets of the present step
-    IndexBuffer stopped_slots;               // slots of stopped vehicles; valid in steps that attribute delays
-    int earliest_stop_tick = 0;              // tick at which the longest stop of a vehicle in stopped_slots began
+    // Stopped vehicles, in the order of lanes and slots. These lists are valid from one delay watch to the next.
+    std::vector<StoppedQueue> stopped_queues;
+    std::vector<int> stopped_ids;        // ids of the vehicles in stopped_queues
     IndexBuffer lanes_near_end;          // mesoscale mode: lanes whose first vehicle may leave the lane in this step
     std::vector<int> lanes_to_transfer;  // lanes whose first vehicle has left the lane in this step
     std::vector<StartMessage> start_messages;  // mesoscale mode: start messages of this step

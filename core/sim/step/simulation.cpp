@@ -152,18 +152,18 @@ void Simulation::watch_delays_in_parallel() {
         for (std::size_t k = share.begin; k < share.end; ++k) visit(state_.partitions[k]);
     };
 #pragma omp single
-    prepare_delay_watch(model_, state_, state_.congestion.watch);
+    prepare_delay_watch(model_, state_.congestion.watch);
 #pragma omp for schedule(static, 1)
     for (int thread = 0; thread < threads_; ++thread) {
         for_each_partition(thread, [&](Partition& part) { find_stopped_vehicles(model_, state_, part); });
     }
 #pragma omp for schedule(static, 1)
     for (int thread = 0; thread < threads_; ++thread) {
-        for_each_partition(
-            thread, [&](const Partition& part) { find_wait_reasons(model_, state_, state_.congestion.watch, part); });
+        for_each_partition(thread,
+                           [&](Partition& part) { find_wait_reasons(model_, state_, state_.congestion.watch, part); });
     }
 #pragma omp single
-    attribute_delays(model_, state_, state_.congestion);
+    attribute_delays(model_, state_);
 }
 
 void Simulation::step() {
