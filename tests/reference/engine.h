@@ -308,12 +308,16 @@ private:
         advance(v, 0.5 * (before_mps + next_mps) * w_.step_s);
     }
 
-    // Moves a vehicle. At a stop line, it enters the intersection.
     void advance(Vehicle& v, double distance_m) {
         const Lane& lane = w_.lane_of(v);
         const bool was_before_line = v.position_m < lane.stop_line_m;
         v.position_m += distance_m;
-        if (lane.signal_group < 0 || !was_before_line || v.position_m < lane.stop_line_m) return;
+        if (was_before_line) enter_beyond_line(lane, v);
+    }
+
+    // Lets a vehicle enter the intersection if it has passed the stop line of the lane.
+    void enter_beyond_line(const Lane& lane, Vehicle& v) {
+        if (lane.signal_group < 0 || v.position_m < lane.stop_line_m) return;
         v.entry_tick = w_.tick;
         v.line_stop_tick = -1;
         const Light light = w_.light(w_.group_of(lane, v.next_lane));
@@ -339,8 +343,15 @@ private:
                (lane.signal_group >= 0 && v.position_m >= lane.stop_line_m && is_on_last_edge(w_, v));
     }
 
-    // Moves the vehicles that have reached the end of a lane to the next lane, or out of the network.
+    // Moves the vehicles that have reached the end of a lane to the next lane, or out of the network. Repeats this until
+    // no vehicle is beyond the end of its lane, because a vehicle can drive over several short lanes in one step.
     void transfer() {
+        while (transfer_by_one_lane()) {
+        }
+    }
+
+    // Returns true if a vehicle has left its lane.
+    bool transfer_by_one_lane() {
         std::vector<std::size_t> left_lanes;
         for (const std::size_t number : w_.order) {
             const Lane& lane = w_.lanes[number];
@@ -354,6 +365,7 @@ private:
                 transfer(lane, std::move(v));
             }
         }
+        return !left_lanes.empty();
     }
 
     void transfer(Lane& lane, Vehicle v) {
@@ -374,6 +386,7 @@ private:
         v.second_previous_lane = std::exchange(v.previous_lane, lane.number);
         routes_.set_route_index(v, v.route_index + 1);
         routes_.choose_next_route(next.number, v);
+        enter_beyond_line(next, v);
         next.vehicles.push_back(std::move(v));
     }
 
