@@ -261,7 +261,7 @@ private:
         exact.acceleration_mps2 = exact.request_mps2 = leader.acceleration_mps2;
         exact.gap_m -=
             std::max(kind.vehicle.settings.brake_lag_s - 0.2, 0.0) * v.speed_mps;  // brakes that respond later
-        return plan_human_request(kind.driver, road, exact, interaction, human_growth_m(kind, v), w_.step_s, changed);
+        return plan_human_request(kind.driver, road, exact, interaction, w_.step_s, changed);
     }
 
     // Full dynamics: computes all requests from the state at the start of the step, then moves all vehicles.
