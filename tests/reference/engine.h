@@ -343,29 +343,32 @@ private:
                (lane.signal_group >= 0 && v.position_m >= lane.stop_line_m && is_on_last_edge(w_, v));
     }
 
-    // Moves the vehicles that have reached the end of a lane to the next lane, or out of the network. Repeats this until
-    // no vehicle is beyond the end of its lane, because a vehicle can drive over several short lanes in one step.
+    // Moves the vehicles that have reached the end of a lane to the next lane, or out of the network. A vehicle can drive
+    // over several short lanes in one step. Each round moves the vehicles by one lane.
     void transfer() {
-        while (transfer_by_one_lane()) {
-        }
-    }
-
-    // Returns true if a vehicle has left its lane.
-    bool transfer_by_one_lane() {
         std::vector<std::size_t> left_lanes;
         for (const std::size_t number : w_.order) {
             const Lane& lane = w_.lanes[number];
             if (!lane.vehicles.empty() && has_left(lane, lane.vehicles.front())) left_lanes.push_back(number);
         }
+        while (!left_lanes.empty()) left_lanes = transfer_from(left_lanes);
+    }
+
+    // Moves the vehicles that have left these lanes by one lane. Returns the lanes that they have reached and left again.
+    std::vector<std::size_t> transfer_from(const std::vector<std::size_t>& left_lanes) {
+        std::vector<std::size_t> left_again;
         for (const std::size_t number : left_lanes) {
             Lane& lane = w_.lanes[number];
             while (!lane.vehicles.empty() && has_left(lane, lane.vehicles.front())) {
                 Vehicle v = std::move(lane.vehicles.front());
                 lane.vehicles.pop_front();
+                const int next = v.next_lane;
                 transfer(lane, std::move(v));
+                if (next >= 0 && has_left(w_.lane(next), w_.lane(next).vehicles.back()))
+                    left_again.push_back(static_cast<std::size_t>(next));
             }
         }
-        return !left_lanes.empty();
+        return left_again;
     }
 
     void transfer(Lane& lane, Vehicle v) {
