@@ -309,6 +309,27 @@ STOPLINE_INLINE R keep_room_acceleration(const CaccSettingsOf<Number>& c, const 
     return choose(is_faster, result, unconstrained);
 }
 
+// Returns the braking of a driver without V2V that keeps room for the case that the leader brakes with the maximum
+// deceleration b at once. Up to the safe speed, the law returns kUnconstrained_mps2. The driver learns of the braking
+// only from its radar, and responds after the radar delay and kBrakeReserve_s. If both vehicles then brake with b, their
+// gap has shrunk by the own speed times this time t:
+//     v_safe^2 = v_p^2 + 2 b (gap - v t - gap that must remain)
+// If the gap is too short, v_safe is below the speed of the leader, so the driver falls back even if its policy asks for
+// a shorter gap.
+inline double keep_response_room_acceleration(const CaccSettings& c, double speed_mps, const LeaderView<double>& p) {
+    constexpr double kSpeedGain_1ps = 2.0;   // as in keep_room_acceleration()
+    constexpr double kLeastSpeed_mps = 1.0;  // our choice: limits the slope of the curve near standstill
+    const double b = c.deceleration_emergency_mps2;
+    const double response_s = c.radar_delay_s + kBrakeReserve_s;
+    const double room_m = p.gap_m - response_s * (speed_mps + max_of(p.closing_mps, 0.0)) - c.emergency_gap_m;
+    const double speed_p = max_of(speed_mps - p.closing_mps, 0.0);
+    const double safe_mps = square_root(max_of(square(speed_p) + 2.0 * b * room_m, 0.0));
+    if (speed_mps <= safe_mps) return kUnconstrained_mps2;
+    const double along_curve =
+        (speed_p * min_of(p.acceleration_mps2, 0.0) - b * p.closing_mps) / max_of(safe_mps, kLeastSpeed_mps);
+    return max_of(along_curve + kSpeedGain_1ps * (safe_mps - speed_mps), -b);
+}
+
 // Returns the braking for a hidden leader, or kUnconstrained_mps2 if no braking is needed. The own leader will leave
 // the route of the own vehicle. Until then it hides the vehicle ahead of it, the hidden leader, which stays on the
 // route. The own vehicle must not hit the hidden leader later. `p` is the view of the hidden leader, and `gap_growth_m`

@@ -63,10 +63,8 @@ private:
         if (last.tick == now.tick) return fault("it is at two places");
         if (!std::isfinite(now.position_m) || !std::isfinite(now.speed_mps) || now.speed_mps < 0.0)
             return fault(fmt::format("position {} m, speed {} m/s", now.position_m, now.speed_mps));
+        if (now.position_m >= model.graph.lanes[at(lane)].length_m) return fault("it is beyond the lane");
         if (last.tick == now.tick - 1 && last.lane == lane) {
-            // A vehicle passes one end of a lane in each step. On lanes that are shorter than its step, it can be far
-            // beyond the end, but it must go to the next lane then.
-            if (last.position_m > model.graph.lanes[at(lane)].length_m + kRounding_m) fault("it stays beyond the lane");
             const double moved_m = now.position_m - last.position_m;
             const double most_m = std::max(now.speed_mps, last.speed_mps) * model.step_s;
             if (moved_m < -kRounding_m || moved_m > most_m + kRounding_m) {

@@ -153,6 +153,22 @@ inline double keep_room_mps2(const CaccSettings& c, double speed_mps, double gro
     return std::max(along_mps2 + kGain_1ps * (safe_mps - speed_mps), -b);
 }
 
+// Returns the same for a driver without V2V. Its reserve is the distance that it drives until its brakes respond, even
+// if its policy asks for a shorter gap.
+inline double keep_response_room_mps2(const CaccSettings& c, double speed_mps, const View& p) {
+    constexpr double kGain_1ps = 2.0;
+    constexpr double kBrakeReserve_s = 0.3;
+    const double b = c.deceleration_emergency_mps2;
+    const double response_s = c.radar_delay_s + kBrakeReserve_s;
+    const double room_m = p.gap_m - response_s * (speed_mps + std::max(p.closing_mps, 0.0)) - c.emergency_gap_m;
+    const double leader_mps = std::max(speed_mps - p.closing_mps, 0.0);
+    const double safe_mps = std::sqrt(std::max(squared(leader_mps) + 2.0 * b * room_m, 0.0));
+    if (speed_mps <= safe_mps) return std::numeric_limits<double>::infinity();
+    const double along_mps2 =
+        (leader_mps * std::min(p.acceleration_mps2, 0.0) - b * p.closing_mps) / std::max(safe_mps, 1.0);
+    return std::max(along_mps2 + kGain_1ps * (safe_mps - speed_mps), -b);
+}
+
 // The request of a vehicle at the end of a step, and its mean over the step. The powertrain gets the mean.
 struct DriverRequest {
     double request_mps2 = 0.0;
@@ -227,9 +243,9 @@ inline DriverRequest plan_request(const DriverModel& d, const GapPolicy& policy,
 
 // Returns the requested acceleration of a human driver: the intelligent driver model without V2V. `interaction` is the
 // reaction to the vehicles ahead. A platoon leader starts with the start-up profile. `exact`: the radar view, for the
-// braking that avoids a collision. `growth_m`: desired gap minus standstill gap.
+// braking that avoids a collision. The driver keeps the distance that it drives until its brakes respond.
 inline DriverRequest plan_human_request(const DriverModel& d, const RoadView& road, const View& exact,
-                                        double interaction, double growth_m, double dt, Vehicle& v) {
+                                        double interaction, double dt, Vehicle& v) {
     const CaccSettings& c = d.settings.cacc;
     const double highest_mps2 = std::min(d.settings.human.idm.acceleration_mps2, c.acceleration_max_mps2);
     const double speed_mps = v.speed_mps;
@@ -241,7 +257,7 @@ inline DriverRequest plan_human_request(const DriverModel& d, const RoadView& ro
     if (v.end_speed_mps < kNoLimit)
         lowest_mps2 = std::min(lowest_mps2, slow_down_mps2(d, speed_mps, v.end_speed_mps, road.to_next_limit_m));
     const double evasive_mps2 =
-        std::min(emergency_mps2(c, speed_mps, exact), keep_room_mps2(c, speed_mps, growth_m, exact));
+        std::min(emergency_mps2(c, speed_mps, exact), keep_response_room_mps2(c, speed_mps, exact));
     lowest_mps2 = std::min({lowest_mps2, evasive_mps2, road.demand_mps2});
     if (v.waits_to_start) lowest_mps2 = std::min(lowest_mps2, 0.0);
     return smooth_request(c, lowest_mps2, dt, v);

@@ -261,7 +261,7 @@ private:
         exact.acceleration_mps2 = exact.request_mps2 = leader.acceleration_mps2;
         exact.gap_m -=
             std::max(kind.vehicle.settings.brake_lag_s - 0.2, 0.0) * v.speed_mps;  // brakes that respond later
-        return plan_human_request(kind.driver, road, exact, interaction, human_growth_m(kind, v), w_.step_s, changed);
+        return plan_human_request(kind.driver, road, exact, interaction, w_.step_s, changed);
     }
 
     // Full dynamics: computes all requests from the state at the start of the step, then moves all vehicles.
@@ -308,12 +308,16 @@ private:
         advance(v, 0.5 * (before_mps + next_mps) * w_.step_s);
     }
 
-    // Moves a vehicle. At a stop line, it enters the intersection.
     void advance(Vehicle& v, double distance_m) {
         const Lane& lane = w_.lane_of(v);
         const bool was_before_line = v.position_m < lane.stop_line_m;
         v.position_m += distance_m;
-        if (lane.signal_group < 0 || !was_before_line || v.position_m < lane.stop_line_m) return;
+        if (was_before_line) enter_beyond_line(lane, v);
+    }
+
+    // Lets a vehicle enter the intersection if it has passed the stop line of the lane.
+    void enter_beyond_line(const Lane& lane, Vehicle& v) {
+        if (lane.signal_group < 0 || v.position_m < lane.stop_line_m) return;
         v.entry_tick = w_.tick;
         v.line_stop_tick = -1;
         const Light light = w_.light(w_.group_of(lane, v.next_lane));
@@ -339,21 +343,32 @@ private:
                (lane.signal_group >= 0 && v.position_m >= lane.stop_line_m && is_on_last_edge(w_, v));
     }
 
-    // Moves the vehicles that have reached the end of a lane to the next lane, or out of the network.
+    // Moves the vehicles that have reached the end of a lane to the next lane, or out of the network. A vehicle can drive
+    // over several short lanes in one step. Each round moves the vehicles by one lane.
     void transfer() {
         std::vector<std::size_t> left_lanes;
         for (const std::size_t number : w_.order) {
             const Lane& lane = w_.lanes[number];
             if (!lane.vehicles.empty() && has_left(lane, lane.vehicles.front())) left_lanes.push_back(number);
         }
+        while (!left_lanes.empty()) left_lanes = transfer_from(left_lanes);
+    }
+
+    // Moves the vehicles that have left these lanes by one lane. Returns the lanes that they have reached and left again.
+    std::vector<std::size_t> transfer_from(const std::vector<std::size_t>& left_lanes) {
+        std::vector<std::size_t> left_again;
         for (const std::size_t number : left_lanes) {
             Lane& lane = w_.lanes[number];
             while (!lane.vehicles.empty() && has_left(lane, lane.vehicles.front())) {
                 Vehicle v = std::move(lane.vehicles.front());
                 lane.vehicles.pop_front();
+                const int next = v.next_lane;
                 transfer(lane, std::move(v));
+                if (next >= 0 && has_left(w_.lane(next), w_.lane(next).vehicles.back()))
+                    left_again.push_back(static_cast<std::size_t>(next));
             }
         }
+        return left_again;
     }
 
     void transfer(Lane& lane, Vehicle v) {
@@ -374,6 +389,7 @@ private:
         v.second_previous_lane = std::exchange(v.previous_lane, lane.number);
         routes_.set_route_index(v, v.route_index + 1);
         routes_.choose_next_route(next.number, v);
+        enter_beyond_line(next, v);
         next.vehicles.push_back(std::move(v));
     }
 

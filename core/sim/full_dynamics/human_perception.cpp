@@ -30,11 +30,10 @@ std::size_t row_of_age(const Model& model, const State& state, std::int64_t age)
 }
 
 // Returns the braking that avoids a collision, or kUnconstrained_mps2. It acts on the measurements of this step.
-// `growth_m` is the desired gap minus the standstill gap. If the brakes respond later than kBrakeLag_s, the vehicle
-// drives on for the difference, so this distance is subtracted from the gap.
-double evasive_mps2(const Model& model, const VehicleArrays& v, int slot, double gap_m, double closing_mps,
-                    double growth_m) {
-    constexpr double kBrakeLag_s = 0.2;  // the lag for which keep_room_acceleration() has its reserves
+// If the brakes respond later than kBrakeLag_s, the vehicle drives on for the difference, so this distance is
+// subtracted from the gap.
+double evasive_mps2(const Model& model, const VehicleArrays& v, int slot, double gap_m, double closing_mps) {
+    constexpr double kBrakeLag_s = 0.2;  // the lag for which keep_response_room_acceleration() has its reserve
     const int policy = v.policy[at(slot)];
     const double speed_mps = v.speed_mps[at(slot)];
     const double late_m = std::max(model.vehicle_of(policy).brake_lag_s - kBrakeLag_s, 0.0) * speed_mps;
@@ -42,7 +41,7 @@ double evasive_mps2(const Model& model, const VehicleArrays& v, int slot, double
     const LeaderView<double> leader{gap_m - late_m, closing_mps, leader_mps2, leader_mps2, 1.0};
     const CaccSettings& limits = model.driver_of(policy).tables.cacc;
     return std::min(emergency_acceleration(limits, speed_mps, leader),
-                    keep_room_acceleration(limits, speed_mps, growth_m, leader));
+                    keep_response_room_acceleration(limits, speed_mps, leader));
 }
 
 // A human driver of a group.
@@ -134,7 +133,7 @@ void react_as_humans(const Model& model, State& state, std::span<const LaneStep>
             if (!plan.is_human) continue;
             const double growth_m =
                 std::max(group.desired_gap[place] - static_cast<double>(group.standstill_gap[place]), 0.0);
-            const double evasive = evasive_mps2(model, v, slot, group.gap[place], group.closing[place], growth_m);
+            const double evasive = evasive_mps2(model, v, slot, group.gap[place], group.closing[place]);
             group.demand[place] = std::min(group.demand[place], static_cast<float>(evasive));
             HumanDriver driver(model, state, plan, slot);
             if (driver.waits(group.gap[place])) group.demand[place] = std::min(group.demand[place], 0.0F);

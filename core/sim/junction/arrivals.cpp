@@ -178,7 +178,7 @@ Arrival next_arrival(const Model& model, const State& state, const Conflict& con
     const auto is_ignored = [&](int slot) { return ignores_stopped && v.speed_mps[at(slot)] < kCrawlingSpeed_mps; };
     Arrival soonest;
     for (const JunctionOccupant& occupant : occupants_of(state, conflict.other)) {
-        if (occupant.front_m >= conflict.other_from_m) continue;
+        if (occupant.front_m > conflict.other_from_m) continue;  // in the area, see blocks_area()
         const bool yields = is_yielding_before(state, occupant.slot, conflict.other_from_m);
         if ((yields && lets_others_go(state, occupant.slot)) || occupant.slot == stopping ||
             is_ignored(occupant.slot) || is_behind_yielding_vehicle(state, conflict.other, occupant)) {

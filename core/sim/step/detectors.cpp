@@ -1,5 +1,7 @@
 #include "sim/step/detectors.h"
 
+#include <vector>
+
 #include "base/containers/index.h"
 #include "sim/state/events.h"
 #include "sim/state/queries/passage.h"
@@ -8,9 +10,15 @@ namespace stopline {
 
 namespace {
 
+// Where crossings and violations are recorded.
+struct Reports {
+    std::vector<Crossing>& crossings;
+    Violations& violations;
+};
+
 // Records that a vehicle enters the intersection. Counts a violation if the vehicle passes the stop line on red
 // although it could have stopped.
-void pass_stop_line(const Model& model, State& state, Partition& part, int lane, int slot) {
+void pass_stop_line(const Model& model, State& state, const Reports& reports, int lane, int slot) {
     VehicleRecord& record = state.vehicles.record[at(slot)];
     record.junction_entry_tick = static_cast<int>(state.tick);
     record.line_stop_tick = -1;
@@ -22,12 +30,25 @@ void pass_stop_line(const Model& model, State& state, Partition& part, int lane,
     // passes on red, this is a violation, unless stopping needed almost maximum braking (may_overrun).
     const StopLineState& line = state.stop_lines.lines[at(lane)];
     if (line.stopping_vehicle == state.vehicles.id[at(slot)] && !line.may_overrun) {
-        ++part.violations.red_entries;
-        part.violations.record(
+        ++reports.violations.red_entries;
+        reports.violations.record(
             {model.time_s(state.tick + 1), Violation::Kind::red_entry, lane, state.vehicles.id[at(slot)], -1});
     } else {
-        ++part.violations.forced_red_entries;
+        ++reports.violations.forced_red_entries;
     }
+}
+
+// Records that the vehicle in `slot` has passed a detector in this step.
+void pass_detector(const Model& model, State& state, const Reports& reports, int number, int slot) {
+    const Detector& detector = model.detectors[at(number)];
+    const VehicleArrays& v = state.vehicles;
+    state.detectors.last_crossing_tick[at(number)] = state.tick + 1;
+    if (model.records_all || model.records_detectors || detector.kind == Detector::Kind::zone) {
+        reports.crossings.push_back({passing_time_s(model, state, slot, detector.position_m), v.id[at(slot)],
+                                     v.policy[at(slot)], number, static_cast<float>(v.speed_mps[at(slot)]),
+                                     v.length_m[at(slot)]});
+    }
+    if (detector.kind == Detector::Kind::stop_line) pass_stop_line(model, state, reports, detector.lane, slot);
 }
 
 }  // namespace
@@ -43,14 +64,16 @@ void record_detector_crossings(const Model& model, State& state, Partition& part
         for (; upstream > 0; --upstream) {
             const int slot = block.past_last() - upstream;
             if (v.position_m[at(slot)] < detector.position_m) break;
-            state.detectors.last_crossing_tick[at(number)] = state.tick + 1;
-            if (model.records_all || model.records_detectors || detector.kind == Detector::Kind::zone) {
-                part.crossings.push_back({passing_time_s(model, state, slot, detector.position_m), v.id[at(slot)],
-                                          v.policy[at(slot)], number, static_cast<float>(v.speed_mps[at(slot)]),
-                                          v.length_m[at(slot)]});
-            }
-            if (detector.kind == Detector::Kind::stop_line) pass_stop_line(model, state, part, detector.lane, slot);
+            pass_detector(model, state, {part.crossings, part.violations}, number, slot);
         }
+    }
+}
+
+void record_crossings_on_arrival(const Model& model, State& state, int lane, int slot) {
+    for (const int number : state.detectors.on_lane[at(lane)]) {
+        if (state.vehicles.position_m[at(slot)] < model.detectors[at(number)].position_m) continue;
+        --state.detectors.upstream[at(number)];
+        pass_detector(model, state, {state.records.crossings, state.records.violations}, number, slot);
     }
 }
 

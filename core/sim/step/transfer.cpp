@@ -1,6 +1,8 @@
 #include "sim/step/transfer.h"
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "base/containers/index.h"
 #include "sim/congestion/teleport.h"
@@ -8,6 +10,7 @@
 #include "sim/state/lane_blocks.h"
 #include "sim/state/queries/lane_end.h"
 #include "sim/state/queries/passage.h"
+#include "sim/step/detectors.h"
 
 namespace stopline {
 
@@ -25,8 +28,9 @@ void miss_turn(const Model& model, State& state, int lane) {
 }
 
 // Moves the first vehicle of a lane to the next lane of its route, or out of the network. Calls miss_turn() instead if
-// the vehicle has no next lane although its trip does not end here.
-void transfer_first(const Model& model, State& state, int lane) {
+// the vehicle has no next lane although its trip does not end here. Adds the next lane to `passed` if the vehicle is
+// already beyond its end.
+void transfer_first(const Model& model, State& state, int lane, std::vector<int>& passed) {
     VehicleArrays& v = state.vehicles;
     const double length_m = state.plan.lane(lane).length_m;
     const int first = state.blocks[at(lane)].first;
@@ -56,19 +60,26 @@ void transfer_first(const Model& model, State& state, int lane) {
         v.record[at(target)].previous_lane = lane;
         set_route_index(model, state, target, route_index);
         choose_next_route(model, state, next, target);
+        record_crossings_on_arrival(model, state, next, target);
+        if (has_left_lane(state, next, target)) passed.push_back(next);
     }
     remove_first(state, lane);
 }
 
 }  // namespace
 
+// A vehicle can drive over several short lanes in one step. Each round moves the vehicles by one lane.
 void transfer_vehicles(const Model& model, State& state) {
-    for (Partition& part : state.partitions) {
-        for (const int lane : part.lanes_to_transfer) {
+    std::vector<int> passed;  // lanes whose last vehicle is beyond the end of the lane
+    const auto transfer_from = [&](const std::vector<int>& lanes) {
+        for (const int lane : lanes) {
             const LaneBlock& block = state.blocks[at(lane)];
-            while (block.count > 0 && has_left_lane(state, lane, block.first)) transfer_first(model, state, lane);
+            while (block.count > 0 && has_left_lane(state, lane, block.first))
+                transfer_first(model, state, lane, passed);
         }
-    }
+    };
+    for (const Partition& part : state.partitions) transfer_from(part.lanes_to_transfer);
+    while (!passed.empty()) transfer_from(std::exchange(passed, {}));
 }
 
 }  // namespace stopline

@@ -175,7 +175,7 @@ private:
         Arrival soonest;
         for (const Occupant& occupant : w_.occupants[static_cast<std::size_t>(conflict.other)]) {
             Vehicle& v = *occupant.vehicle;
-            if (occupant.front_m >= conflict.other_from_m) continue;
+            if (occupant.front_m > conflict.other_from_m) continue;
             const bool waits = is_yielding_before(w_, v, conflict.other_from_m) && lets_others_go(w_, v);
             if (waits || &v == stopping || is_ignored(v) || is_behind_yielding_vehicle(w_, conflict.other, occupant))
                 return soonest;

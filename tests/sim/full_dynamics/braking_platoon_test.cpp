@@ -96,5 +96,31 @@ TEST_P(BrakingPlatoon, StopsWithoutTouching) {
                 smallest_gap_m[2]);
 }
 
+// A policy without time gap asks for a gap of 2 m at any speed. Human drivers who follow so closely fall back in time to
+// stop behind a leader that brakes hard.
+TEST(HumanPlatoon, KeepsRoomForItsResponse) {
+    constexpr double kSlow_mps = 9.0;
+    TrackPlan plan;
+    plan.limit_mps = 100.0 / 3.6;
+    plan.policy = "P";
+    plan.overrides = {"policies=[{name: P, law: human, standstill_gap: 2 m, time_gap: 0 s}]", "populations=[P]",
+                      "measure.baseline=P"};
+    for (const std::string vehicle : {"petrol_eu4_72kw", "articulated_lorry_35t"}) {
+        plan.vehicle = vehicle;
+        Track track(plan);
+        const PowertrainTables& type = track.model().vehicles[0];
+        Leader leader{1000.0, kSlow_mps, 0.0, 0.0, type.brake_lag_s};
+        for (int k = 0; k <= kFollowers; ++k) track.place(0, 1000.0 - k * (type.length_m + 2.0), kSlow_mps);
+        while (track.time_s() < 60.0) {
+            track.drive(0, 0, leader.position_m, leader.speed_mps, leader.acceleration_mps2, leader.request_mps2,
+                        leader.brake_lag_s);
+            leader.advance(track.time_s() < 15.0 ? 0.0 : -7.0, track.step_s());
+            track.step();  // checks that no two vehicles overlap
+            if (HasFatalFailure()) return;
+        }
+        EXPECT_EQ(track.vehicle(0, kFollowers).speed_mps, 0.0);
+    }
+}
+
 }  // namespace
 }  // namespace stopline

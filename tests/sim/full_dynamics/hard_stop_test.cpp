@@ -16,6 +16,7 @@ using namespace testing_support;
 struct Law {
     const char* name;
     const char* fields;
+    const char* driver = "driver.human.reaction=1 s";
 };
 
 class HardStop : public testing::TestWithParam<Law> {};
@@ -26,7 +27,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Law{"switch_time", "law: switch_time_gap, time_gap: 0.87 s, switch_speed: 20 km/h"},
                     Law{"switch_steep",
                         "law: switch_distance, switch_speed: 30 km/h, reference_speed: 31 km/h, "
-                        "reference_gap: 16 m"}),
+                        "reference_gap: 16 m"},
+                    Law{"human_no_time", "law: human, time_gap: 0 s"},
+                    Law{"human_late", "law: human, time_gap: 0.38 s", "driver.human.reaction=2 s"}),
     [](const testing::TestParamInfo<Law>& law) { return std::string(law.param.name); });
 
 struct Stop {
@@ -43,7 +46,7 @@ Stop stop_at_end_of_green(const std::string& vehicle, const Law& law, double gre
     plan.length_m = 800.0;
     plan.green_s = green_s;
     plan.overrides = {std::string("policies=[{name: P, standstill_gap: 2 m, ") + law.fields + "}]", "populations=[P]",
-                      "measure.baseline=P", "demand.vehicles=1"};
+                      "measure.baseline=P", "demand.vehicles=1", law.driver};
     Scenario scenario = scenario_of(plan);
     scenario.signal.yellow_s = 0.0;
     EXPECT_EQ(scenario.policies.back().standstill_gap_m, kMinStandstillGap_m);

@@ -8,6 +8,9 @@
 #include "base/containers/index.h"
 #include "scenario/build_model.h"
 #include "scenario/load_scenario.h"
+#include "sim/junction/arrivals.h"
+#include "sim/junction/lights/signals.h"
+#include "sim/state/lane_blocks.h"
 #include "sim/step/simulation.h"
 
 namespace stopline {
@@ -17,7 +20,7 @@ constexpr double kEnd_s = 500.0;
 // Headways between entering vehicles with priority, shorter and longer than the critical gap.
 constexpr double kHeadways_s[] = {2.5, 8.0, 3.5, 6.0, 4.5, 10.0, 4.0, 7.0, 5.5, 4.8, 9.0};
 
-struct Arrival {
+struct PriorityArrival {
     double time_s;
     bool awaited;  // a left-turning vehicle has waited since the previous arrival
 };
@@ -90,6 +93,26 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Oncoming, GapAcceptance, testing::Values("straight", "right"),
                          [](const auto& movement) { return std::string(movement.param); });
 
+// A vehicle is in the conflict area if its front is beyond the start of the area. Exactly at the start, it arrives now.
+TEST_P(GapAcceptance, VehicleAtTheStartOfTheAreaArrivesNow) {
+    for (const Conflict& conflict : model_.graph.conflicts_of(left_turn_)) {
+        if (conflict.other != priority_) continue;
+        State state = make_state(model_, 1);
+        start_signals(model_, state);
+        const int slot = append_slot(state, priority_);
+        state.vehicles.speed_mps[at(slot)] = 9.0;
+        const auto arrival_with = [&](double front_m) {
+            state.vehicles.position_m[at(slot)] = front_m;
+            state.junctions.occupants[at(priority_)] = {{slot, front_m, front_m - 5.0, 0}};
+            return next_arrival(model_, state, conflict, 10.0);
+        };
+        EXPECT_EQ(arrival_with(conflict.other_from_m).slot, slot);
+        EXPECT_EQ(arrival_with(conflict.other_from_m).time_s, 0.0);
+        EXPECT_EQ(arrival_with(conflict.other_from_m - 0.1).slot, slot);
+        EXPECT_EQ(arrival_with(conflict.other_from_m + 0.1).slot, -1);
+    }
+}
+
 TEST_P(GapAcceptance, AcceptsLongGapsAndRejectsShortOnes) {
     double area_m = 1e9;
     for (const Conflict& c : model_.graph.conflicts_of(left_turn_)) {
@@ -105,7 +128,7 @@ TEST_P(GapAcceptance, AcceptsLongGapsAndRejectsShortOnes) {
     std::vector<double> accepted_s;
     // Number of gaps that were accepted before an oncoming vehicle at full speed.
     int checked_gaps = 0;
-    std::vector<Arrival> arrivals;  // arrivals of vehicles with priority at the conflict area
+    std::vector<PriorityArrival> arrivals;  // arrivals of vehicles with priority at the conflict area
     Simulation simulation(model_);
     const State& state = simulation.state();
     while (simulation.time_s() < kEnd_s) {

@@ -16,12 +16,13 @@ namespace {
 using namespace testing_support;
 
 // Runs an imported network. Returns the hardest braking of any vehicle, m/s2. Stores the speed range of the run.
-double hardest_braking_mps2(const std::string& name, double& lowest_mps, double& highest_mps) {
+double hardest_braking_mps2(const std::string& name, double& lowest_mps, double& highest_mps,
+                            const std::string& step = "0.1 s") {
     const std::string data = STOPLINE_SOURCE_DIR "/tests/data/" + name;
     const Scenario scenario = parse_scenario(
         "{fidelity: meso, duration: 120 s, meso: table2, populations: [CTG-Ref], network: {kind: sumo, net: " + data +
             ".net.xml, routes: [" + data + ".rou.xml]}}",
-        "test.yaml", {"meso.constant_time.dawdling=0"});
+        "test.yaml", {"meso.constant_time.dawdling=0", "meso.step=" + step});
     const Model model = build_model(scenario, 0);
     Simulation simulation(model);
     std::map<int, double> last_mps;  // [vehicle]
@@ -58,6 +59,14 @@ TEST(SpeedLimits, VehicleWithoutLeaderBrakesComfortably) {
 TEST(SpeedLimits, AreForeseenOverShortEdges) {
     double lowest_mps = 0.0, highest_mps = 0.0;
     EXPECT_LT(hardest_braking_mps2("short_edges", lowest_mps, highest_mps), 3.0);
+    EXPECT_GT(highest_mps, 25.0);
+    EXPECT_LT(lowest_mps, 2.8);
+}
+
+// With steps of 0.5 s, a vehicle can drive over an edge of 20 m and the junctions of 0.1 m around it in two steps.
+TEST(SpeedLimits, AreForeseenOverShortEdgesWithLongSteps) {
+    double lowest_mps = 0.0, highest_mps = 0.0;
+    EXPECT_LT(hardest_braking_mps2("short_edges", lowest_mps, highest_mps, "0.5 s"), 3.0);
     EXPECT_GT(highest_mps, 25.0);
     EXPECT_LT(lowest_mps, 2.8);
 }
