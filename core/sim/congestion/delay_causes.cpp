@@ -43,7 +43,8 @@ private:
     // Returns the queue that contains the stopped vehicle in `slot` on `lane`. The queues of a partition are in the
     // order of slots.
     StoppedQueue& queue_of(int slot, int lane) const {
-        std::vector<StoppedQueue>& queues = state_.partitions[state_.location_of[at(lane)].partition].stopped_queues;
+        std::vector<StoppedQueue>& queues =
+            state_.partitions[at(state_.location_of[at(lane)].partition)].stopped_queues;
         const auto begins_later = [](int value, const StoppedQueue& queue) { return value < queue.first; };
         return *std::prev(std::upper_bound(queues.begin(), queues.end(), slot, begins_later));
     }

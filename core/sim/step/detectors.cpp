@@ -70,7 +70,7 @@ void record_detector_crossings(const Model& model, State& state, Partition& part
 }
 
 void record_crossings_on_arrival(const Model& model, State& state, int lane, int slot) {
-    for (const int number : state.detectors.on_lane[at(lane)]) {
+    for (const int number : state.detectors.on_lane.of(lane)) {
         if (state.vehicles.position_m[at(slot)] < model.detectors[at(number)].position_m) continue;
         --state.detectors.upstream[at(number)];
         pass_detector(model, state, {state.records.crossings, state.records.violations}, number, slot);

@@ -103,7 +103,9 @@ TEST_P(GapAcceptance, VehicleAtTheStartOfTheAreaArrivesNow) {
         state.vehicles.speed_mps[at(slot)] = 9.0;
         const auto arrival_with = [&](double front_m) {
             state.vehicles.position_m[at(slot)] = front_m;
-            state.junctions.occupants[at(priority_)] = {{slot, front_m, front_m - 5.0, 0}};
+            SparseLists<JunctionOccupant>& occupants = state.partitions[0].occupants;
+            occupants.clear(state.junctions.occupants_place);
+            occupants.add(priority_, {slot, front_m, front_m - 5.0, 0}, state.junctions.occupants_place);
             return next_arrival(model_, state, conflict, 10.0);
         };
         EXPECT_EQ(arrival_with(conflict.other_from_m).slot, slot);
