@@ -193,7 +193,7 @@ def main():
     parser.add_argument("--bin", type=Path, required=True, help="folder of the Stopline programs")
     parser.add_argument("--signal", choices=list(GREENS_S), default="continuous", help="default: %(default)s")
     parser.add_argument("--left", type=int, default=100, help="share of left turns on the left lane, %% (default: 100)")
-    parser.add_argument("--opposing", type=float, nargs="+", default=[200, 400, 600, 800, 1000, 1200],
+    parser.add_argument("--opposing", type=float, nargs="+", default=[200.0, 400.0, 600.0, 800.0, 1000.0, 1200.0],
                         help="opposing flows, veh/h, on three lanes together")
     parser.add_argument("--seeds", type=int, default=2, help="number of runs of each program (default: 2)")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="setting of our scenario")
