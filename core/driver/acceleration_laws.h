@@ -311,11 +311,11 @@ STOPLINE_INLINE R keep_room_acceleration(const CaccSettingsOf<Number>& c, const 
 
 // Returns the braking of a driver without V2V that keeps room for the case that the leader brakes with the maximum
 // deceleration b at once. Up to the safe speed, the law returns kUnconstrained_mps2. The driver learns of the braking
-// only from its radar, and responds after the radar delay and kBrakeReserve_s. If both vehicles then brake with b, their
+// only from its radar. It responds after the radar delay and kBrakeReserve_s. If both vehicles then brake with b, their
 // gap has shrunk by the own speed times this time t:
 //     v_safe^2 = v_p^2 + 2 b (gap - v t - gap that must remain)
-// If the gap is too short, v_safe is below the speed of the leader, so the driver falls back even if its policy asks for
-// a shorter gap.
+// If the gap is too short, v_safe is below the speed of the leader. The driver then falls back, even if its policy asks
+// for a shorter gap.
 inline double keep_response_room_acceleration(const CaccSettings& c, double speed_mps, const LeaderView<double>& p) {
     constexpr double kSpeedGain_1ps = 2.0;   // as in keep_room_acceleration()
     constexpr double kLeastSpeed_mps = 1.0;  // our choice: limits the slope of the curve near standstill

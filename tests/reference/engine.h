@@ -343,8 +343,8 @@ private:
                (lane.signal_group >= 0 && v.position_m >= lane.stop_line_m && is_on_last_edge(w_, v));
     }
 
-    // Moves the vehicles that have reached the end of a lane to the next lane, or out of the network. A vehicle can drive
-    // over several short lanes in one step. Each round moves the vehicles by one lane.
+    // Moves the vehicles that have reached the end of a lane to the next lane, or out of the network. A vehicle can
+    // drive over several short lanes in one step. Each round moves the vehicles by one lane.
     void transfer() {
         std::vector<std::size_t> left_lanes;
         for (const std::size_t number : w_.order) {
@@ -354,7 +354,8 @@ private:
         while (!left_lanes.empty()) left_lanes = transfer_from(left_lanes);
     }
 
-    // Moves the vehicles that have left these lanes by one lane. Returns the lanes that they have reached and left again.
+    // Moves the vehicles that have left these lanes by one lane. Returns the lanes that they have reached and left
+    // again.
     std::vector<std::size_t> transfer_from(const std::vector<std::size_t>& left_lanes) {
         std::vector<std::size_t> left_again;
         for (const std::size_t number : left_lanes) {

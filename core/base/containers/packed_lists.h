@@ -4,7 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
+
+#include "base/simd/huge_page_allocator.h"
 
 namespace stopline {
 
@@ -40,8 +41,8 @@ public:
     }
 
 private:
-    std::vector<T> elements_;
-    std::vector<std::uint32_t> offsets_{0};
+    LargeArray<T> elements_;
+    LargeArray<std::uint32_t> offsets_{0};
 };
 
 }  // namespace stopline

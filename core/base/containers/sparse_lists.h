@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "base/simd/huge_page_allocator.h"
+
 namespace stopline {
 
 // The caller owns the array `places`, indexed by key. It holds the place of each key's list, or kNoList if the key has
@@ -16,7 +18,7 @@ public:
     static constexpr int kNoList = -1;
 
     // Appends a value to the list of a key.
-    void add(int key, const T& value, std::vector<int>& places) {
+    void add(int key, const T& value, LargeArray<int>& places) {
         int& place = places[static_cast<std::size_t>(key)];
         if (place == kNoList) {
             place = static_cast<int>(keys_.size());
@@ -33,7 +35,7 @@ public:
     // Returns the keys that have a list, in the order in which they got their first value.
     const std::vector<int>& keys() const { return keys_; }
     bool empty() const { return keys_.empty(); }
-    void clear(std::vector<int>& places) {
+    void clear(LargeArray<int>& places) {
         for (std::size_t k = 0; k < keys_.size(); ++k) {
             places[static_cast<std::size_t>(keys_[k])] = kNoList;
             lists_[k].clear();

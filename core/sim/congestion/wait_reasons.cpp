@@ -24,7 +24,7 @@ double gap_to_leader_m(const VehicleArrays& v, int slot) {
 
 // Returns the lane whose block contains `slot`. The blocks are in the order of NetworkPlan::lane_order().
 int lane_of(const State& state, int slot) {
-    const std::vector<int>& lanes = state.plan.lane_order();
+    const LargeArray<int>& lanes = state.plan.lane_order();
     const auto begins_later = [&](int value, int lane) { return value < state.blocks[at(lane)].begin; };
     return *std::prev(std::upper_bound(lanes.begin(), lanes.end(), slot, begins_later));
 }

@@ -16,8 +16,8 @@ namespace stopline {
 // VehicleArrays::start_ticks. Does nothing if no driver is human.
 //
 // Also limits FullGroup::demand of these vehicles to the braking of emergency_acceleration() and
-// keep_response_room_acceleration() for the present gap (our choice, not in the source of human.h). Without this braking, a
-// driver whose reaction time is longer than its time gap could run into a leader that brakes hard.
+// keep_response_room_acceleration() for the present gap (our choice, not in the source of human.h). Without this
+// braking, a driver whose reaction time is longer than its time gap could run into a leader that brakes hard.
 void react_as_humans(const Model& model, State& state, std::span<const LaneStep> lanes, const FullGroup& group);
 
 }  // namespace stopline

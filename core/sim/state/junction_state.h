@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/containers/bitset.h"
+#include "base/simd/huge_page_allocator.h"
 #include "sim/state/vehicles/vehicle_record.h"
 
 namespace stopline {
@@ -49,10 +50,10 @@ struct YieldStops {
 };
 
 struct JunctionState {
-    std::vector<int> occupants_place;    // [lane] place in Partition::occupants
-    std::vector<int> approaching_place;  // [lane] place in Partition::approaching
+    LargeArray<int> occupants_place;    // [lane] place in Partition::occupants
+    LargeArray<int> approaching_place;  // [lane] place in Partition::approaching
     // [lane] index of the lane's yield stops in Partition::yield_stops; -1: the lane has none in this step
-    std::vector<int> yield_stops_index;
+    LargeArray<int> yield_stops_index;
     // Sets of connections. In each set, LanePlan::bitset_index is the index of a connection's bit.
     Bitset occupied;                      // connections with occupants
     Bitset with_stopped;                  // connections with an occupant slower than kCrawlingSpeed_mps (1 m/s)

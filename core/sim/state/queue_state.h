@@ -2,7 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
+
+#include "base/simd/huge_page_allocator.h"
 
 namespace stopline {
 
@@ -22,11 +23,11 @@ struct StandingQueue {
 };
 
 struct QueueState {
-    std::vector<StandingQueue> standing;  // [lane]
+    LargeArray<StandingQueue> standing;  // [lane]
     // [lane] signal group whose green wakes the sleeping lane; -1: the lane is awake. The first vehicle of a sleeping
     // lane is at rest before its red signal. Until the signal is green, or until a vehicle joins or leaves the lane, no
     // leader is searched for this vehicle, and the decisions at the stop line stay as they are.
-    std::vector<int> sleeps_until_green;
+    LargeArray<int> sleeps_until_green;
 };
 
 }  // namespace stopline

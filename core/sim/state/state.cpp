@@ -52,15 +52,15 @@ namespace {
 
 // Splits the network into partitions with about the same total length of lanes. No intersection is split.
 std::vector<Partition> make_partitions(const Model& model, const State& state, int threads) {
-    const std::vector<int>& order = state.plan.lane_order();
+    const LargeArray<int>& order = state.plan.lane_order();
     const auto length_of = [&](int lane) { return state.plan.lane(lane).length_m; };
     double total_m = 0.0;
     double longest_m = 0.0;
     for (const int lane : order) total_m += length_of(lane), longest_m = std::max(longest_m, length_of(lane));
-    // The lanes and vehicles of one intersection take about 20 kB. The data of a partition and the prefetched data of
-    // the next partitions should fit into the second-level cache together.
-    const int intersections_a_partition = model.meso ? 8 : 16;
-    const int count = std::max(threads, state.plan.intersection_count() / intersections_a_partition);
+    // The lanes and vehicles of one intersection take about 15 kB. The data of a partition should fit into the
+    // second-level cache. In small partitions, the last vehicles of exit lanes belong more often to other partitions.
+    constexpr int kIntersections = 32;
+    const int count = std::max(threads, state.plan.intersection_count() / kIntersections);
     std::vector<std::vector<int>> detectors(order.size());
     for (std::size_t k = 0; k < model.detectors.size(); ++k) {
         if (model.detectors[k].lane >= 0) detectors[at(model.detectors[k].lane)].push_back(static_cast<int>(k));

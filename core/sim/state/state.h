@@ -38,19 +38,19 @@ struct State {
     std::int64_t tick = 0;
     NetworkPlan plan;
     VehicleArrays vehicles;
-    std::vector<LaneBlock> blocks;  // [lane]
-    DelayRows radar;                // rows of the stored radar measurements that this step writes and reads
-    DelayRows v2v;                  // rows of the stored V2V messages that this step writes and reads
+    LargeArray<LaneBlock> blocks;  // [lane]
+    DelayRows radar;               // rows of the stored radar measurements that this step writes and reads
+    DelayRows v2v;                 // rows of the stored V2V messages that this step writes and reads
     // Density of vehicles around each intersection, for channels that read it. Empty: none does.
     std::vector<float> vehicles_per_km;
     std::vector<double> longest_lane_m;  // [intersection] set together with vehicles_per_km
     std::vector<Partition> partitions;
-    std::vector<LaneLocation> location_of;  // [lane] position in the lists of `partitions`
+    LargeArray<LaneLocation> location_of;  // [lane] position in the lists of `partitions`
     SignalState signals;
     StopLines stop_lines;
     ClearingState clearing;
     JunctionState junctions;
-    std::vector<int> speed_targets_place;  // [lane] place in Partition::speed_targets
+    LargeArray<int> speed_targets_place;  // [lane] place in Partition::speed_targets
     GapCooperation gap_cooperation;
     QueueState queues;
     DetectorState detectors;

@@ -2,7 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
+
+#include "base/simd/huge_page_allocator.h"
 
 namespace stopline {
 
@@ -43,10 +44,10 @@ struct ExitRoom {
 };
 
 struct StopLines {
-    std::vector<StopLineState> lines;          // [lane]
-    std::vector<int> stop_slot;                // [lane] slot of the vehicle that stops at the line; -1: none
-    std::vector<KeepClearHold> held_at_green;  // [lane] why the keep-clear rule holds the vehicle in stop_slot
-    std::vector<ExitRoom> exit_rooms;          // [exit lane]
+    LargeArray<StopLineState> lines;          // [lane]
+    LargeArray<int> stop_slot;                // [lane] slot of the vehicle that stops at the line; -1: none
+    LargeArray<KeepClearHold> held_at_green;  // [lane] why the keep-clear rule holds the vehicle in stop_slot
+    LargeArray<ExitRoom> exit_rooms;          // [exit lane]
 };
 
 }  // namespace stopline

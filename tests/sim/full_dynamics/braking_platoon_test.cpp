@@ -96,8 +96,8 @@ TEST_P(BrakingPlatoon, StopsWithoutTouching) {
                 smallest_gap_m[2]);
 }
 
-// A policy without time gap asks for a gap of 2 m at any speed. Human drivers who follow so closely fall back in time to
-// stop behind a leader that brakes hard.
+// A policy without time gap asks for a gap of 2 m at any speed. Human drivers who follow so closely fall back in time
+// to stop behind a leader that brakes hard.
 TEST(HumanPlatoon, KeepsRoomForItsResponse) {
     constexpr double kSlow_mps = 9.0;
     TrackPlan plan;

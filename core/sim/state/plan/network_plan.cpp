@@ -61,8 +61,8 @@ LanePlan plan_of(const Model& model, int index) {
 
 // Returns the entry speed of each lane (NetworkPlan::entry_speed_mps()). Braking for a lower limit can begin several
 // lanes upstream, so the computation is repeated until no speed changes.
-std::vector<double> entry_speeds_mps(const LaneGraph& graph, std::span<const LanePlan> lanes, double braking_mps2) {
-    std::vector<double> entry_mps;
+LargeArray<double> entry_speeds_mps(const LaneGraph& graph, std::span<const LanePlan> lanes, double braking_mps2) {
+    LargeArray<double> entry_mps;
     for (const LanePlan& lane : lanes) entry_mps.push_back(lane.limit_mps);
     for (bool changed = true; changed;) {
         changed = false;

@@ -10,6 +10,7 @@
 
 #include "base/containers/bitset.h"
 #include "base/containers/packed_lists.h"
+#include "base/simd/huge_page_allocator.h"
 #include "base/simd/simd.h"
 #include "sim/state/model.h"
 #include "sim/state/plan/lane_plan.h"
@@ -116,7 +117,7 @@ public:
         }
     }
     // Returns all lanes, grouped by intersection.
-    const std::vector<int>& lane_order() const { return lane_order_; }
+    const LargeArray<int>& lane_order() const { return lane_order_; }
     int intersection_count() const { return intersection_count_; }
     // Returns the intersection number of a lane. Lanes with the same number are in the same partition, so one
     // thread processes them.
@@ -134,8 +135,8 @@ private:
     double speed_factor_;
     double max_space_per_vehicle_m_ = 0.0;
     int intersection_count_ = 0;
-    std::vector<LanePlan> lanes_;
-    std::vector<double> entry_speed_mps_;     // [lane]
+    LargeArray<LanePlan> lanes_;
+    LargeArray<double> entry_speed_mps_;      // [lane]
     std::vector<double> maximum_speeds_mps_;  // [spacing policy]; empty: no speed limiter is below a speed limit
     PackedLists<int> routes_;
     PackedLists<int> next_;
@@ -143,23 +144,23 @@ private:
     const std::vector<std::vector<Conflict>>* model_conflicts_ = nullptr;
     PackedLists<Conflict> own_conflicts_;
     PackedLists<BitsetMask> conflicting_;
-    std::vector<int> connections_;  // [bitset index] connection with this index; -1: unused
-    std::vector<int> lane_order_;
-    std::vector<int> intersection_of_;     // [lane]
-    std::vector<int> adjacent_index_;      // [lane] index in adjacent_
-    std::vector<AdjacentLanes> adjacent_;  // the first element is for all lanes without routes and neighbours
+    LargeArray<int> connections_;  // [bitset index] connection with this index; -1: unused
+    LargeArray<int> lane_order_;
+    LargeArray<int> intersection_of_;     // [lane]
+    LargeArray<int> adjacent_index_;      // [lane] index in adjacent_
+    LargeArray<AdjacentLanes> adjacent_;  // the first element is for all lanes without routes and neighbours
     std::vector<int> lanes_with_neighbours_;
-    std::vector<Turn> turns_;                              // [route]
-    std::vector<std::array<int, kMaxTurns>> routes_with_;  // [approach][turn] index of a route; -1: none
-    std::vector<int> next_parallel_route_;                 // [route]
-    std::vector<int> movement_groups_;   // [lane] signal group of the movement of a connection; -1: none
-    std::vector<char> may_wait_inside_;  // [lane]
-    std::vector<StopRule> stop_rules_;   // [lane]
+    LargeArray<Turn> turns_;                              // [route]
+    LargeArray<std::array<int, kMaxTurns>> routes_with_;  // [approach][turn] index of a route; -1: none
+    LargeArray<int> next_parallel_route_;                 // [route]
+    LargeArray<int> movement_groups_;   // [lane] signal group of the movement of a connection; -1: none
+    LargeArray<char> may_wait_inside_;  // [lane]
+    LargeArray<StopRule> stop_rules_;   // [lane]
     struct DivergePlan {
         double end_m = 0.0;
         bool exit_reaches_back = false;
     };
-    std::vector<DivergePlan> diverges_;  // [lane]
+    LargeArray<DivergePlan> diverges_;  // [lane]
     const DemandPlan* demand_;
     TripLanes trip_lanes_;
 };
