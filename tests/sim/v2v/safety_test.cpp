@@ -24,6 +24,7 @@ struct Blackout {
     std::int64_t first = -1;  // number of the first lost message
     std::int64_t end = -1;
 };
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): a channel is a function without a state
 Blackout blackout;
 
 bool delivers_outside_blackout(const V2vSettings& settings, const V2vMessage& message) {
@@ -61,9 +62,9 @@ struct Outcome {
 
 class Trial {
 public:
-    Trial(const Model& model, std::uint64_t number) : number_(number), track_(model) {
+    Trial(const Model& model, std::uint64_t number)
+        : number_(number), track_(model), limit_mps_(track_.model().graph.lanes[0].limit_mps) {
         const bool from_rest = draw(0) < 0.5;
-        limit_mps_ = track_.model().graph.lanes[0].limit_mps;
         speed_mps_ = from_rest ? 0.0 : limit_mps_ * (0.6 + 0.4 * draw(1));
         brake_s_ = from_rest ? 3.0 + 15.0 * draw(2) : 1.0 + 8.0 * draw(2);
         outcome_.starts = from_rest;
@@ -155,7 +156,7 @@ private:
 
     std::uint64_t number_;
     Track track_;
-    double limit_mps_ = 0.0;
+    double limit_mps_;
     double speed_mps_ = 0.0;
     double brake_s_ = 0.0;
     Outcome outcome_;
