@@ -24,7 +24,7 @@ struct LastBlocker {
     int tick = 0;           // latest tick at which the blocker was observed
 };
 
-// What the delay watch remembers of a lane.
+// The memory of the delay watch for one lane.
 struct LaneWatch {
     LastBlocker last_blocker;
     // Latest tick at which vehicles ahead blocked the way of the first vehicle of a queue on this lane; 0: none.
