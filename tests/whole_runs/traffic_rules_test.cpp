@@ -130,7 +130,7 @@ TEST(KeepClear, VehiclesThatWaitInsideLeaveBeforeCrossingOnesEnter) {
 fidelity: meso
 step: 20 ms
 duration: 400 s
-seed: 4
+seed: 2
 network:
   kind: intersection
   intersection: {radius: 25 m, approach_length: 113 m, exit_length: 185 m, speed_limit: 30 km/h, turn_speed: 9 m/s}

@@ -15,6 +15,9 @@ namespace stopline {
 
 namespace {
 
+// A vehicle is at its waiting position if its front is at most this far from it.
+constexpr double kWaitingPlace_m = 1.0;
+
 // Returns the travel time over a distance, s. A vehicle faster than `limit_mps`, the speed limit of its connection,
 // brakes towards the limit. A slower vehicle keeps its speed, but drives at kMinSpeed_mps at least.
 double travel_time_s(const DriverPlan& driver, double distance_m, double speed_mps, double limit_mps) {
@@ -61,28 +64,30 @@ double emergency_stop_gap_s(const Model& model, const State& state, const Confli
 }
 
 // Returns the earliest arrival time of the next vehicle with priority, in s from now, at which candidate `v` still
-// accepts the gap. `wait_m`: waiting position of the candidate. If the network is not imported (its demand has no
-// trips), the critical gap begins when the candidate reaches `wait_m`. The critical gap is at least the
-// gap that the next vehicle with priority needs for an emergency stop.
-// In imported networks the gap begins when the previous vehicle with priority has reached the area, as in the Highway
-// Capacity Manual. The critical gap then holds for a vehicle that starts from rest at `wait_m`. If the candidate passes
-// the area later or earlier than such a vehicle, the difference is added or subtracted. `has_begun`: the candidate is
-// moving and uses a gap that it has accepted before. In imported networks this candidate gives up the gap only if it
-// would hinder the next vehicle with priority. In other networks `has_begun` has no effect.
+// accepts the gap. `wait_m`: waiting position of the candidate. As in the Highway Capacity Manual, the gap begins when
+// the previous vehicle with priority has reached the area. The critical gap holds for a vehicle that starts from rest
+// at `wait_m`. If the candidate passes the area later or earlier than such a vehicle, the difference is added or
+// subtracted. The candidate must also leave the area before the next vehicle with priority arrives. Exception: if the
+// network is not imported (only the demand of imported networks has trips), this does not hold for a candidate at its
+// waiting position. With a short critical gap, such a candidate makes the next vehicle with priority brake, but leaves
+// it the time for an emergency stop.
+// `has_begun`: the candidate is moving and uses a gap that it has accepted before. It does not give up this gap if it
+// leaves the area before the next vehicle with priority arrives.
 double needed_time_s(const Model& model, const State& state, int lane, const Conflict& conflict, const Candidate& v,
                      double wait_m, bool has_begun) {
     const VehicleArrays& arrays = state.vehicles;
     const double speed_mps = arrays.speed_mps[at(v.slot)];
     const DriverPlan& driver = model.driver_of(arrays.policy[at(v.slot)]);
-    if (model.demand.trips.empty()) {
-        return std::max(driver.give_way.critical_gap_s, emergency_stop_gap_s(model, state, conflict)) +
-               travel_time_s(driver, wait_m - v.front_m, speed_mps, state.plan.lane(lane).limit_mps);
-    }
     const double passing_s = passing_time_s(model, state, lane, conflict, v, v.front_m, speed_mps);
-    if (has_begun) return passing_s;
     const double from_rest_s = passing_time_s(model, state, lane, conflict, v, wait_m, 0.0);
-    const double gap_s = driver.give_way.critical_gap_s - time_since_last_arrival_s(state, conflict);
-    return std::max(gap_s + passing_s - from_rest_s, passing_s);
+    const double gap_s =
+        driver.give_way.critical_gap_s - time_since_last_arrival_s(state, conflict) + passing_s - from_rest_s;
+    const double unhindered_s = has_begun ? passing_s : std::max(gap_s, passing_s);
+    if (!model.demand.trips.empty()) return unhindered_s;
+    const double stop_s = emergency_stop_gap_s(model, state, conflict) +
+                          travel_time_s(driver, wait_m - v.front_m, speed_mps, state.plan.lane(lane).limit_mps);
+    const bool has_waited = v.front_m >= wait_m - kWaitingPlace_m;
+    return std::max(has_waited ? std::min(gap_s, unhindered_s) : unhindered_s, stop_s);
 }
 
 // Imported networks only (only their demand has trips): returns the slot of a vehicle that must yield to candidate `v`

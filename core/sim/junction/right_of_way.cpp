@@ -7,10 +7,9 @@
 // conditions:
 //   - No vehicle of the other connection is in the area. No vehicle of the other connection that has accepted a gap is
 //     on its way to the area.
-//   - If the vehicle must yield, it needs a gap: the next vehicle with priority must arrive at least one critical gap
-//     after the yielding vehicle reaches its waiting position. The gap must suffice in all areas where the vehicle must
-//     yield. The gap is checked again while the vehicle can still stop comfortably, because a stopped vehicle with
-//     priority may start. In imported networks the needed gap is another one (needed_time_s() in gap_acceptance.cpp).
+//   - If the vehicle must yield, it needs a gap of at least the critical gap between two vehicles with priority
+//     (needed_time_s() in gap_acceptance.cpp). The gap must suffice in all areas where the vehicle must yield. The gap
+//     is checked again while the vehicle can still stop comfortably, because a stopped vehicle with priority may start.
 //   - If neither connection has priority (movements of different signal groups), the vehicle that was the first to pass
 //     its stop line drives first. Exception: if only one of the two vehicles can stop before the area, the other one
 //     drives first. If two vehicles wait for each other, one of them proceeds (DeadlockResolution).
@@ -231,7 +230,6 @@ private:
         const bool checks_all = has_no_signal && (waits_at_line() || !is_imported_);
         if (is_far && !checks_all && !blocker_is_slow) return {};
         Wait wait{std::min(wait_m(conflict), line_m_), blocker, YieldReason::occupied};
-        if (!is_imported_) return wait;
         if (conflict.other_yields) wait.reason = YieldReason::intruder;
         // The gap behind a vehicle with priority begins when that vehicle reaches the area. So the candidate can
         // already accept the gap while the vehicle with priority is still in the area.

@@ -121,21 +121,22 @@ private:
         return w_.step_s + emergency_braking_m(w_, speed_mps) / speed_mps + (w_.is_meso ? 0.0 : kResponse_s);
     }
 
-    // Returns the earliest arrival of the next vehicle with priority at which the candidate accepts the gap. In
-    // generated networks, the critical gap begins when the candidate reaches its waiting position. In imported
-    // networks, it begins when the previous vehicle with priority has reached the area, and holds for a start from
-    // rest.
+    // Returns the earliest arrival of the next vehicle with priority at which the candidate accepts the gap. The
+    // critical gap begins when the previous vehicle with priority has reached the area, and holds for a start from
+    // rest. In imported networks the candidate leaves the area before the next arrival. In generated networks it lets
+    // the next vehicle stop. `has_begun`: the candidate moves and has accepted the gap before.
     double needed_s(const Candidate& c, const Conflict& conflict, double wait_m, bool has_begun) const {
+        constexpr double kWaitingPlace_m = 1.0;
         const DriverSettings& driver = w_.driver(*c.vehicle);
         const double speed_mps = c.vehicle->speed_mps;
-        const double critical_s = driver.give_way.critical_gap_s;
-        if (!w_.is_imported)
-            return std::max(critical_s, emergency_stop_s(conflict)) +
-                   travel_s(driver, wait_m - c.front_m, speed_mps, w_.lane(c.connection).limit_mps);
         const double now_s = passing_s(c, conflict, c.front_m, speed_mps);
-        if (has_begun) return now_s;
         const double later_s = now_s - passing_s(c, conflict, wait_m, 0.0);
-        return std::max(critical_s - since_last_arrival_s(conflict) + later_s, now_s);
+        const double gap_s = driver.give_way.critical_gap_s - since_last_arrival_s(conflict) + later_s;
+        const double free_s = has_begun ? now_s : std::max(gap_s, now_s);
+        if (w_.is_imported) return free_s;
+        const double stop_s = emergency_stop_s(conflict) +
+                              travel_s(driver, wait_m - c.front_m, speed_mps, w_.lane(c.connection).limit_mps);
+        return std::max(c.front_m >= wait_m - kWaitingPlace_m ? std::min(gap_s, free_s) : free_s, stop_s);
     }
 
     // Imported networks: returns a vehicle that must yield to the stopped candidate but has accepted a gap; null if

@@ -231,7 +231,6 @@ private:
         const bool checks_all = has_no_signal && (places.is_line() || !w_.is_imported);
         if (is_far && !checks_all && !blocker->is_slow()) return {};
         Wait wait{places.at_m(conflict), blocker, WaitReason::occupied};
-        if (!w_.is_imported) return wait;
         if (conflict.other_yields) wait.reason = WaitReason::intruder;
         if (conflict.yields && c.is_stopped() && !blocker->is_slow())
             wait.keeps_gap = gap_blocker(c, conflict, places).vehicle == nullptr;
