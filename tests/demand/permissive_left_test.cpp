@@ -101,9 +101,7 @@ double flow_between_veh_h(const Drivers& drivers, double headway_s, int opposing
         if (leg_name(model.graph.lanes[static_cast<std::size_t>(inlet.lane)].name) != "east") continue;
         const int path = inlet.paths.front();
         inlet.arrivals_s.clear();
-        for (double time_s = 0.0; lane == opposing_lane && time_s < kTo_s; time_s += headway_s) {
-            inlet.arrivals_s.push_back(time_s);
-        }
+        for (int k = 0; lane == opposing_lane && k * headway_s < kTo_s; ++k) inlet.arrivals_s.push_back(k * headway_s);
         inlet.paths.assign(inlet.arrivals_s.size(), path);
         ++lane;
     }
