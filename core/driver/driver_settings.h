@@ -71,8 +71,8 @@ using StopSettings = StopSettingsOf<double>;
 
 // Yielding inside intersections.
 struct GiveWaySettings {
-    // Shortest accepted time between two vehicles with priority, for a vehicle that starts from rest. The default is near
-    // the mean of 45 approaches with permissive left turns, 4.87 s (Claros, Chitturi, Bill, Noyce 2021, "Impact of
+    // Shortest accepted time between two vehicles with priority, for a vehicle that starts from rest. The default is
+    // near the mean of 45 approaches with permissive left turns, 4.87 s (Claros, Chitturi, Bill, Noyce 2021, "Impact of
     // geometry and operations on left-turn gap acceptance at signalized intersections with permissive indication").
     double critical_gap_s = 5.0;
     double margin_m = 0.5;  // distance from a waiting vehicle's front to the conflict area
