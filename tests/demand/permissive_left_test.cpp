@@ -3,8 +3,8 @@
 //
 //     s = q exp(-q tc / 3600) / (1 - exp(-q tf / 3600))
 //
-// tc is the critical gap, tf the follow-up time. Both are measured in the same model with evenly spaced opposing
-// vehicles. Evenly spaced vehicles also tell the shortest headway t_n in which n vehicles turn. With random arrivals
+// tc is the critical gap, tf the follow-up time. compare() measures both in the same model with evenly spaced opposing
+// vehicles. compare_with_manual() takes the values of the manual. Evenly spaced vehicles also tell the shortest headway t_n in which n vehicles turn. With random arrivals
 // the capacity is then q times the sum of exp(-q t_n / 3600) over all n. The formula above is the case
 // t_n = tc + (n - 1) tf.
 #include <gtest/gtest.h>
@@ -217,7 +217,7 @@ void compare(const std::vector<double>& opposing_veh_h, double to_s, int seeds) 
 
 TEST(PermissiveLeft, HasTheCapacityOfRandomGaps) { compare({200.0, 600.0}, 2100.0, 6); }
 
-// Compares drivers of the manual with its curve for its own critical gap and follow-up time.
+// Compares kOfManual with the curve of the manual for its critical gap of 4.5 s and its follow-up time of 2.5 s.
 void compare_with_manual(const std::vector<double>& opposing_veh_h, double to_s, int seeds) {
     constexpr double kCriticalGap_s = 4.5;
     constexpr double kFollowUp_s = 2.5;

@@ -87,7 +87,7 @@ TEST(RightOfWay, TurnsKeepTheirSpeedLimit) {
 }
 
 // After a left-turning vehicle has accepted a gap, the next vehicle with priority reaches the conflict area only after
-// the needed time (less a tolerance of 0.3 s).
+// GapAccepted::needed_s (less a tolerance of 0.3 s).
 TEST(RightOfWay, LeftTurnsUseSufficientGaps) {
     Scenario scenario = reference(turn_shares(15, 10));
     scenario.measure.cycles = 8;

@@ -185,9 +185,10 @@ const Table& give_way_table() {
         "yielding inside intersections",
         {
             number<&S::critical_gap_s>("critical_gap", "s", {0, 60},
-                                       "shortest accepted time between two vehicles with priority, for a vehicle that "
-                                       "starts from rest; in SUMO networks, at least the time in which it leaves the "
-                                       "conflict area"),
+                                       "shortest accepted time between two vehicles with priority, for a yielding "
+                                       "vehicle that starts from rest; in SUMO networks, at least the time in which "
+                                       "the yielding vehicle leaves the conflict area; in other networks, at least the "
+                                       "time of the next vehicle for an emergency stop"),
             number<&S::margin_m>("margin", "m", {0, 10},
                                  "distance from the front of a waiting vehicle to the conflict area"),
             number<&S::approach_acceleration_mps2>(

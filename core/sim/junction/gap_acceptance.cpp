@@ -15,8 +15,8 @@ namespace stopline {
 
 namespace {
 
-// A vehicle is at its waiting position if its front is at most this far from it.
-constexpr double kWaitingPlace_m = 1.0;
+// A vehicle has reached its waiting position if its front is at most this far before it.
+constexpr double kWaitingTolerance_m = 1.0;
 
 // Returns the travel time over a distance, s. A vehicle faster than `limit_mps`, the speed limit of its connection,
 // brakes towards the limit. A slower vehicle keeps its speed, but drives at kMinSpeed_mps at least.
@@ -64,15 +64,12 @@ double emergency_stop_gap_s(const Model& model, const State& state, const Confli
 }
 
 // Returns the earliest arrival time of the next vehicle with priority, in s from now, at which candidate `v` still
-// accepts the gap. `wait_m`: waiting position of the candidate. As in the Highway Capacity Manual, the gap begins when
-// the previous vehicle with priority has reached the area. The critical gap holds for a vehicle that starts from rest
-// at `wait_m`. If the candidate passes the area later or earlier than such a vehicle, the difference is added or
-// subtracted. The candidate must also leave the area before the next vehicle with priority arrives. Exception: if the
-// network is not imported (only the demand of imported networks has trips), this does not hold for a candidate at its
-// waiting position. With a short critical gap, such a candidate makes the next vehicle with priority brake, but leaves
-// it the time for an emergency stop.
-// `has_begun`: the candidate is moving and uses a gap that it has accepted before. It does not give up this gap if it
-// leaves the area before the next vehicle with priority arrives.
+// accepts the gap. `wait_m`: waiting position of the candidate. `has_begun`: the candidate is moving and uses a gap that
+// it has accepted before.
+// As in the Highway Capacity Manual, the gap begins when the previous vehicle with priority has reached the area. If
+// this vehicle has left the area, the gap begins now. The critical gap holds for a vehicle that starts from rest at
+// `wait_m`. A candidate that needs more time than this vehicle to pass the area needs a longer gap, by the difference. A
+// faster candidate needs a shorter gap.
 double needed_time_s(const Model& model, const State& state, int lane, const Conflict& conflict, const Candidate& v,
                      double wait_m, bool has_begun) {
     const VehicleArrays& arrays = state.vehicles;
@@ -82,12 +79,16 @@ double needed_time_s(const Model& model, const State& state, int lane, const Con
     const double from_rest_s = passing_time_s(model, state, lane, conflict, v, wait_m, 0.0);
     const double gap_s =
         driver.give_way.critical_gap_s - time_since_last_arrival_s(state, conflict) + passing_s - from_rest_s;
+    // With this gap, the candidate does not hinder the next vehicle with priority.
     const double unhindered_s = has_begun ? passing_s : std::max(gap_s, passing_s);
-    if (!model.demand.trips.empty()) return unhindered_s;
+    const bool is_imported = !model.demand.trips.empty();  // only imported networks have trips
+    if (is_imported) return unhindered_s;
+    // In other networks, a candidate that has reached its waiting position may make the next vehicle with priority brake.
+    // When the candidate reaches this position, that vehicle must have the time for an emergency stop.
     const double stop_s = emergency_stop_gap_s(model, state, conflict) +
                           travel_time_s(driver, wait_m - v.front_m, speed_mps, state.plan.lane(lane).limit_mps);
-    const bool has_waited = v.front_m >= wait_m - kWaitingPlace_m;
-    return std::max(has_waited ? std::min(gap_s, unhindered_s) : unhindered_s, stop_s);
+    const bool is_at_wait = v.front_m >= wait_m - kWaitingTolerance_m;
+    return std::max(is_at_wait ? std::min(gap_s, unhindered_s) : unhindered_s, stop_s);
 }
 
 // Imported networks only (only their demand has trips): returns the slot of a vehicle that must yield to candidate `v`

@@ -7,7 +7,7 @@
 // conditions:
 //   - No vehicle of the other connection is in the area. No vehicle of the other connection that has accepted a gap is
 //     on its way to the area.
-//   - If the vehicle must yield, it needs a gap of at least the critical gap between two vehicles with priority
+//   - If the vehicle must yield, the time between two vehicles with priority must be at least its critical gap
 //     (needed_time_s() in gap_acceptance.cpp). The gap must suffice in all areas where the vehicle must yield. The gap
 //     is checked again while the vehicle can still stop comfortably, because a stopped vehicle with priority may start.
 //   - If neither connection has priority (movements of different signal groups), the vehicle that was the first to pass

@@ -18,7 +18,8 @@ namespace stopline {
 namespace {
 
 constexpr double kEnd_s = 900.0;
-// The critical gap is shorter by up to this time for a vehicle that still moves.
+// A moving vehicle passes the area sooner than one that starts from rest. It may accept a gap that is shorter by up to
+// this time.
 constexpr double kHeadStart_s = 0.5;
 // Headways between entering vehicles with priority, shorter and longer than the critical gap.
 constexpr double kHeadways_s[] = {2.5, 8.0, 3.5, 6.0, 4.5, 10.0, 4.0, 7.0, 5.5, 4.8, 9.0};
@@ -170,10 +171,9 @@ TEST_P(GapAcceptance, AcceptsLongGapsAndRejectsShortOnes) {
         if (next == arrivals.begin() || next == arrivals.end()) continue;
         EXPECT_GE(next->time_s - std::prev(next)->time_s, critical_s - kHeadStart_s) << "at " << start_s << " s";
     }
-    // If the interval between two arrivals is only slightly longer than the critical gap, a vehicle may reject it. The
-    // waiting vehicle starts only when the first vehicle with priority has cleared the area, about one second after its
-    // arrival, and must leave the area before the second one arrives. If the second vehicle turns right, it brakes and
-    // arrives later than the waiting vehicle predicted.
+    // If the interval between two arrivals is only slightly longer than the critical gap, a vehicle may reject it. It
+    // predicts an early arrival, as if the next vehicle with priority accelerated to the limit. If that vehicle turns
+    // right, it brakes and arrives even later.
     const double margin_s = GetParam() == std::string("right") ? 3.0 : 1.5;
     int rejected = 0;
     for (std::size_t k = 1; k < arrivals.size(); ++k) {
