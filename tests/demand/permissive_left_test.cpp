@@ -4,9 +4,9 @@
 //     s = q exp(-q tc / 3600) / (1 - exp(-q tf / 3600))
 //
 // tc is the critical gap, tf the follow-up time. compare() measures both in the same model with evenly spaced opposing
-// vehicles. compare_with_manual() takes the values of the manual. Evenly spaced vehicles also tell the shortest headway t_n in which n vehicles turn. With random arrivals
-// the capacity is then q times the sum of exp(-q t_n / 3600) over all n. The formula above is the case
-// t_n = tc + (n - 1) tf.
+// vehicles. compare_with_manual() takes the values of the manual. Evenly spaced vehicles also tell the shortest headway
+// t_n in which n vehicles turn. With random arrivals the capacity is then q times the sum of exp(-q t_n / 3600) over
+// all n. The formula above is the case t_n = tc + (n - 1) tf.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -64,12 +64,12 @@ double emergency_stop_gap_s(const Model& model, const State& state, const Confli
 }
 
 // Returns the earliest arrival time of the next vehicle with priority, in s from now, at which candidate `v` still
-// accepts the gap. `wait_m`: waiting position of the candidate. `has_begun`: the candidate is moving and uses a gap that
-// it has accepted before.
+// accepts the gap. `wait_m`: waiting position of the candidate. `has_begun`: the candidate is moving and uses a gap
+// that it has accepted before.
 // As in the Highway Capacity Manual, the gap begins when the previous vehicle with priority has reached the area. If
 // this vehicle has left the area, the gap begins now. The critical gap holds for a vehicle that starts from rest at
-// `wait_m`. A candidate that needs more time than this vehicle to pass the area needs a longer gap, by the difference. A
-// faster candidate needs a shorter gap.
+// `wait_m`. A candidate that needs more time than this vehicle to pass the area needs a longer gap, by the difference.
+// A faster candidate needs a shorter gap.
 double needed_time_s(const Model& model, const State& state, int lane, const Conflict& conflict, const Candidate& v,
                      double wait_m, bool has_begun) {
     const VehicleArrays& arrays = state.vehicles;
@@ -83,8 +83,8 @@ double needed_time_s(const Model& model, const State& state, int lane, const Con
     const double unhindered_s = has_begun ? passing_s : std::max(gap_s, passing_s);
     const bool is_imported = !model.demand.trips.empty();  // only imported networks have trips
     if (is_imported) return unhindered_s;
-    // In other networks, a candidate that has reached its waiting position may make the next vehicle with priority brake.
-    // When the candidate reaches this position, that vehicle must have the time for an emergency stop.
+    // In other networks, a candidate that has reached its waiting position may make the next vehicle with priority
+    // brake. When the candidate reaches this position, that vehicle must have the time for an emergency stop.
     const double stop_s = emergency_stop_gap_s(model, state, conflict) +
                           travel_time_s(driver, wait_m - v.front_m, speed_mps, state.plan.lane(lane).limit_mps);
     const bool is_at_wait = v.front_m >= wait_m - kWaitingTolerance_m;
