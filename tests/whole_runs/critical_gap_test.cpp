@@ -17,7 +17,7 @@ TEST_P(CriticalGap, OfZeroLeavesTimeToStop) {
 fidelity: {}
 step: 20 ms
 seed: 7
-duration: 200 s
+duration: 100 s
 network: {{kind: intersection, intersection: {{turn_speed: 11 m/s, approach_length: 150 m}}}}
 signal: {{first_green: 1 s, green: 20 s}}
 measure: {{warmup_cycles: 0}}

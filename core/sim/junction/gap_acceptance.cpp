@@ -76,12 +76,13 @@ double needed_time_s(const Model& model, const State& state, int lane, const Con
     const double speed_mps = arrays.speed_mps[at(v.slot)];
     const DriverPlan& driver = model.driver_of(arrays.policy[at(v.slot)]);
     const double passing_s = passing_time_s(model, state, lane, conflict, v, v.front_m, speed_mps);
+    const bool is_imported = !model.demand.trips.empty();  // only imported networks have trips
+    if (has_begun && is_imported) return passing_s;
     const double from_rest_s = passing_time_s(model, state, lane, conflict, v, wait_m, 0.0);
     const double gap_s =
         driver.give_way.critical_gap_s - time_since_last_arrival_s(state, conflict) + passing_s - from_rest_s;
     // With this gap, the candidate does not hinder the next vehicle with priority.
     const double unhindered_s = has_begun ? passing_s : std::max(gap_s, passing_s);
-    const bool is_imported = !model.demand.trips.empty();  // only imported networks have trips
     if (is_imported) return unhindered_s;
     // In other networks, a candidate that has reached its waiting position may make the next vehicle with priority
     // brake. When the candidate reaches this position, that vehicle must have the time for an emergency stop.

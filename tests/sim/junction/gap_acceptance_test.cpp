@@ -17,7 +17,7 @@
 namespace stopline {
 namespace {
 
-constexpr double kEnd_s = 900.0;
+constexpr double kEnd_s = 500.0;
 // A moving vehicle passes the area sooner than one that starts from rest. It may accept a gap that is shorter by up to
 // this time.
 constexpr double kHeadStart_s = 0.5;
