@@ -152,11 +152,17 @@ private:
         int vehicles_upstream = 0;
         int earliest_tick = now_;
         for (const Partition& part : state_.partitions) {
+            int lane_ahead = -1;  // lane of the queue before this one
             for (const StoppedQueue& queue : part.stopped_queues) {
                 vehicles[static_cast<std::size_t>(queue.cause)] += queue.count;
                 vehicles_upstream += count_upstream_of_area(queue);
                 earliest_tick = std::min(earliest_tick, queue.earliest_stop_tick);
-                if (queue.head == queue.first) watch_queue_head(queue);
+                const bool is_foremost = queue.lane != lane_ahead;
+                lane_ahead = queue.lane;
+                if (is_foremost) note_front(queue);
+                // Vehicles of the lane move ahead of the other queues. A queue that only waits for their start, the
+                // discharge, is still blocked by them.
+                if (is_foremost || queue.cause != DelayCause::queue_discharge) watch_first(queue);
                 if (const int delayed = count_in_episode(queue); delayed > 0) add_to_episode(queue, delayed);
             }
         }
@@ -198,9 +204,19 @@ private:
         episode.max_vehicles = std::max(episode.max_vehicles, episode.current_vehicles);
     }
 
-    // Notes on its lane that the way of a queue head is blocked. Records a queue head that starves.
-    void watch_queue_head(const StoppedQueue& queue) {
-        if (blocks_the_way(queue.cause)) {
+    // Notes which vehicle is the first one of the foremost queue on its lane. While another vehicle of the lane stood
+    // ahead, this vehicle was blocked.
+    void note_front(const StoppedQueue& queue) {
+        LaneWatch& lane = watch_.lanes[at(queue.lane)];
+        const int id = v_.id[at(queue.first)];
+        if (lane.front_id == id) return;
+        lane.front_id = id;
+        lane.front_tick = now_;
+    }
+
+    // Notes on its lane that the way of the first vehicle of a queue is blocked. Records a first vehicle that starves.
+    void watch_first(const StoppedQueue& queue) {
+        if (queue.head != queue.first || blocks_the_way(queue.cause)) {
             watch_.lanes[at(queue.lane)].last_blocked_tick = now_;
         } else if (starves(queue)) {
             record_starvation(queue);
@@ -215,7 +231,9 @@ private:
     // the cause is the signal, even if the way is blocked. starves() therefore requires two signal cycles without an
     // observed blockage, so that a vehicle that is blocked at each green does not starve.
     std::int64_t unblocked_since(const StoppedQueue& queue) const {
-        return std::max(v_.stopped_since[at(queue.first)], watch_.lanes[at(queue.lane)].last_blocked_tick);
+        const LaneWatch& lane = watch_.lanes[at(queue.lane)];
+        const int since = std::max(v_.stopped_since[at(queue.first)], lane.last_blocked_tick);
+        return lane.front_id == v_.id[at(queue.first)] ? std::max(since, lane.front_tick) : since;
     }
 
     // Returns true if the first vehicle, which must be the queue head, has been stopped for

@@ -29,6 +29,8 @@ struct LaneWatch {
     LastBlocker last_blocker;
     // Latest tick at which vehicles ahead blocked the way of the first vehicle of a queue on this lane; 0: none.
     int last_blocked_tick = 0;
+    int front_id = -1;      // id of the first vehicle of the foremost queue on this lane; -1: no queue so far
+    int front_tick = 0;     // tick since which this vehicle has been the first one
     int open_episode = -1;  // index in DelayWatch::open_episodes of an open episode on this lane; -1: none
 };
 

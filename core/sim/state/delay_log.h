@@ -57,8 +57,9 @@ struct Gridlock {
 };
 
 // A starving vehicle. It is the first vehicle of its queue and has been stopped for at least
-// RulesPlan::starvation_ticks. If it has a signal, it has also been stopped for at least two cycles of this signal. No
-// vehicle ahead blocked the way in this time. The vehicle only waited for right of way, its signal or a lane change.
+// RulesPlan::starvation_ticks. If it has a signal, it has also been stopped for at least two cycles of this signal. In
+// this time, no vehicle ahead on its lane or beyond blocked its way. The vehicle only waited for right of way, its
+// signal or a lane change.
 struct Starvation {
     DelayCause cause = DelayCause::none;  // at the last observation
     int lane = -1;
