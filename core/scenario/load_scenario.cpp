@@ -9,6 +9,7 @@
 #include "base/io/data_directory.h"
 #include "base/nearest_name.h"
 #include "scenario/compose.h"
+#include "scenario/demand/plan_arrivals.h"
 #include "scenario/demand/traffic_file.h"
 #include "scenario/driving_checks.h"
 #include "scenario/files/file_name.h"
@@ -88,6 +89,20 @@ void add_scalar(SourceNode& map, const std::string& name, const std::string& tex
     map.add({name, map.place}, std::move(value));
 }
 
+// Returns what is wrong with arriving platoons, which may not fit into the time between their arrivals.
+std::vector<FieldProblem> platoon_problems(const Scenario& scenario) {
+    if (scenario.demand.arrivals != "platooned" || !plans_arrivals(scenario)) return {};
+    const NetworkKind& kind = network_kind(scenario.network);
+    Model model;
+    model.graph = kind.graph(scenario.network);
+    try {
+        kind.add_demand(scenario, model);
+    } catch (const InputError& error) {
+        return {{"demand.platoon_headway", error.what()}};
+    }
+    return {};
+}
+
 Scenario scenario_from(SourceNode root, const std::vector<std::string>& overrides) {
     require_data_directory();
     require_map(root);
@@ -108,16 +123,15 @@ Scenario scenario_from(SourceNode root, const std::vector<std::string>& override
     }
     scenario.vehicle_name = scenario.vehicle.name;
     scenario.driver_name = scenario.driver.name;
-    if (kind.import_files != nullptr) {
-        for (const auto& [field, problem] : kind.import_files(scenario, source.directory)) {
+    const auto report_all = [&](const std::vector<FieldProblem>& problems) {
+        for (const auto& [field, problem] : problems) {
             report.error(report.place_of(field), "field '" + field + "': " + problem);
         }
         report.throw_if_any();
-    }
-    for (const auto& [field, problem] : read_traffic_file(scenario, source.directory)) {
-        report.error(report.place_of(field), "field '" + field + "': " + problem);
-    }
-    report.throw_if_any();
+    };
+    if (kind.import_files != nullptr) report_all(kind.import_files(scenario, source.directory));
+    report_all(read_traffic_file(scenario, source.directory));
+    report_all(platoon_problems(scenario));
     scenario.hash = scenario_hash(scenario);
     scenario.warnings = report.warnings();
     for (std::string& line : range_warnings(scenario)) scenario.warnings.push_back(std::move(line));

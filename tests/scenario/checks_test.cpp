@@ -104,6 +104,19 @@ TEST(Checks, MessagesArriveInTheNextStepOrLater) {
                          "value '200 ms' is out of range (allowed: 0.001 s to 0.1 s)"));
 }
 
+TEST(Checks, AMissingFileOfDeliveryIsReportedOnce) {
+    const auto error_with_delivery = [](const std::string& file) {
+        return error_with({"driver.v2v={channel: delivery_over_distance, delivery: " + file + "}"});
+    };
+    const std::string missing = error_with_delivery("nonsense");
+    EXPECT_TRUE(contains(missing, "there is no 'nonsense' in ")) << missing;
+    EXPECT_EQ(lines_of(missing), 1U) << missing;
+    EXPECT_EQ(error_with_delivery("cv2x_4_subchannels"), "");
+    const std::string empty = error_with_delivery("{curves: []}");
+    EXPECT_TRUE(contains(empty, "field 'driver.v2v.delivery.curves': has 0 entries")) << empty;
+    EXPECT_EQ(lines_of(empty), 1U) << empty;
+}
+
 TEST(Checks, MissingSectionsHaveDefaults) {
     for (const std::string kind : {"intersection", "grid"}) {
         const Scenario s = parse_scenario("network: {kind: " + kind + "}\nduration: 600 s\n", "x.yaml");

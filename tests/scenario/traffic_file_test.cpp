@@ -43,6 +43,10 @@ TEST(TrafficFile, MustExist) {
     EXPECT_TRUE(contains(error_of("network: {kind: grid}\nduration: 600 s\ndemand: {kind: od}\n"), "od"));
 }
 
+TEST(TrafficFile, MustNotBeEmpty) {
+    EXPECT_TRUE(contains(traffic_error("counts", ""), "traffic.csv: the file is empty"));
+}
+
 TEST(TrafficFile, NamesPlaceColumnAndValue) {
     EXPECT_TRUE(contains(counts_error("0,60,c0r0_west,9,0,6,3\n60,12o,c0r0_west,0,0,0,0\n"),
                          "traffic.csv:3:4: end: value '12o' is not a time: a number from 0 to 1e+06"));
@@ -130,6 +134,18 @@ TEST(DemandProfile, MustBeginAtZeroAndRise) {
                          "field 'demand.profile[0].from': the profile must begin at 0 min, not at 1 min"));
     EXPECT_TRUE(contains(profile_error("[{from: 0 min, inflow: 60 %}, {from: 0 min, inflow: 100 %}]"),
                          "field 'demand.profile[1].from': value 0 min must be above the time before, 0 min"));
+}
+
+TEST(DemandArrivals, PlatoonsMustFitIntoTheTime) {
+    const std::string rate = error_of(
+        "network: {kind: intersection}\n"
+        "demand: {kind: rate, arrivals: platooned, inflow: 1800 veh/h, platoon_headway: 50 s}\n");
+    EXPECT_TRUE(contains(rate, "test.yaml:2:")) << rate;
+    EXPECT_TRUE(contains(rate, "field 'demand.platoon_headway': 50 s is too long for up to 900 veh/h per lane"))
+        << rate;
+    const std::string counts = traffic_error("counts", std::string(kCountsHeader) + "0,60,c0r0_west,9,0,6,3\n",
+                                             ", arrivals: platooned, platoon_headway: 50 s");
+    EXPECT_TRUE(contains(counts, "field 'demand.platoon_headway': 50 s is too long for the ")) << counts;
 }
 
 TEST(DemandArrivals, AreForDemandWithArrivals) {

@@ -6,10 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -304,11 +304,11 @@ std::vector<FieldProblem> read_traffic_file(Scenario& scenario, const std::files
         (directory / (is_matrix ? scenario.demand.od : scenario.demand.counts)).lexically_normal();
     const std::string label = file.generic_string();
     std::ifstream in(file, std::ios::binary);
-    std::ostringstream content;
-    if (!in || std::filesystem::is_directory(file) || !(content << in.rdbuf())) {
+    if (!in || std::filesystem::is_directory(file)) {
         return {{field, label + ": the file does not exist or cannot be read"}};
     }
-    const std::string text = content.str();
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    if (in.bad()) return {{field, label + ": the file cannot be read to its end"}};
     std::vector<FieldProblem> problems;
     try {
         TrafficReader reader(scenario, parse_csv(text, label));

@@ -35,8 +35,9 @@ const Table& delivery_table() {
         "delivery of messages by a radio technology",
         {
             text<&S::name>("name", TextField::Rule::name, "name of the technology; default: the name of the file"),
-            list<&S::curves>("curves", delivery_curve_table, {0, 100},
-                             "curves for rising densities; linear between the densities"),
+            list<&S::curves>("curves", delivery_curve_table, {1, 100},
+                             "curves for rising densities; linear between the densities")
+                .required(),
         });
     return table;
 }
@@ -89,14 +90,10 @@ std::string channel_meaning() {
 void check_v2v(const V2vSettings& settings, Checker& check) {
     const V2vChannel& channel = find_v2v_channel(settings.channel);
     const std::string problem = channel.problem == nullptr ? std::string() : channel.problem(settings);
-    // The file that `delivery` names may be missing. An error has then been reported at `delivery` before.
+    // If the file that `delivery` names has no curves or is missing, an error has been reported there before.
     const bool has_empty_delivery =
         channel.reads_density && check.given("delivery") && settings.delivery.curves.empty();
-    if (has_empty_delivery) {
-        check.error("delivery", "has no curves, but the channel needs them");
-    } else if (!problem.empty()) {
-        check.error("channel", problem);
-    }
+    if (!has_empty_delivery && !problem.empty()) check.error("channel", problem);
     if (settings.jitter_s == 0.0) return;
     const bool exponential = settings.jitter_form == "exponential";
     const double interval_s = message_interval_s(settings, 0.0);
