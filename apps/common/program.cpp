@@ -6,6 +6,7 @@
 #include <exception>
 #include <new>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 
 #include <omp.h>
@@ -82,7 +83,10 @@ ExitCode run_guarded(const std::string& name, const std::function<ExitCode()>& b
     } catch (const InputError& error) {
         // Child processes such as gnuplot receive the same Ctrl-C and fail. This is no error of the input.
         if (interrupted()) return report_interrupt(name);
-        print_message("{}: {}\n", name, error.what());
+        // An error that is found after the input has been read names the field, but not the file.
+        const bool names_file = !std::string_view(error.what()).starts_with("field '");
+        print_message("{}: {}{}{}\n", name, names_file ? "" : input_name(),
+                      names_file || input_name().empty() ? "" : ": ", error.what());
         return ExitCode::bad_input;
     } catch (const Interrupted&) {
         return report_interrupt(name);

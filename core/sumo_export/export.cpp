@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/input_error.h"
 #include "base/io/child_process.h"
@@ -62,8 +63,11 @@ std::vector<std::string> run_with_writers(Simulation& simulation, double end_s,
 
 void check_exportable(const Scenario& scenario) {
     if (network_kind(scenario.network).is_exportable) return;
-    throw InputError(fmt::format("networks of the kind '{}' cannot be exported: the scenario already names SUMO files",
-                                 scenario.network.kind));
+    throw InputError(fmt::format(
+        "field 'network.kind': value '{}' cannot be exported: the scenario already names SUMO files; these can "
+        "be exported: {}",
+        scenario.network.kind,
+        fmt::join(kinds_with([](const NetworkKind& kind) { return kind.is_exportable; }), ", ")));
 }
 
 std::string sumo_limits_note(const Model& model) {

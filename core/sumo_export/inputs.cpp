@@ -1,6 +1,11 @@
 #include "sumo_export/inputs.h"
 
 #include <algorithm>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/containers/index.h"
 #include "base/input_error.h"
@@ -175,8 +180,14 @@ void write_lights(const std::filesystem::path& file, const Model& model, const P
                   double duration_s) {
     for (const SignalPlan& plan : model.signals) {
         if (plan.controller->follows_programme) continue;
-        throw InputError(fmt::format("signal.controller: '{}' reacts to traffic, so there is no programme to export",
-                                     plan.controller->name));
+        std::vector<std::string> exportable;
+        for (const SignalController* controller : signal_controllers()) {
+            if (controller->follows_programme) exportable.emplace_back(controller->name);
+        }
+        throw InputError(
+            fmt::format("field 'signal.controller': value '{}' reacts to traffic, so there is no programme to export; "
+                        "these can be exported: {}",
+                        plan.controller->name, fmt::join(exportable, ", ")));
     }
     XmlFile xml(file, "tlLogics", "tllogic_file.xsd");
     const std::int64_t run_ticks = std::max<std::int64_t>(to_ticks(duration_s, model.step_s), 1);

@@ -24,6 +24,19 @@ refused "existing folder" "$compare" "$scenarios/single_light.yaml" --population
 [ -d "$work/old" ] || fail "an existing folder was removed"
 [ -z "$(ls -A "$work/old")" ] || fail "files are left in an existing folder: $(ls -A "$work/old")"
 
+# message_has CASE PART: expects PART in the message of the last refused command
+message_has() { grep -qF -- "$2" "$work/stderr" || fail "$1: '$2' is missing in: $(head -c 500 "$work/stderr")"; }
+
+export_new=("$STOPLINE_BIN/stopline-export" --sumo "$work/new")
+refused "export of a controller that reacts to traffic" "${export_new[@]}" "$scenarios/dual_ring.yaml"
+message_has "controller" "$scenarios/dual_ring.yaml: field 'signal.controller': value 'dual_ring' reacts to traffic"
+message_has "controller" "these can be exported: fixed_time"
+data="$STOPLINE_SOURCE/tests/data"
+printf 'network: {kind: sumo, net: %s/roundabout.net.xml, routes: [%s/roundabout.rou.xml]}\nduration: 60 s\n' \
+    "$data" "$data" >"$work/imported.yaml"
+refused "export of an imported network" "${export_new[@]}" "$work/imported.yaml"
+message_has "imported network" "$work/imported.yaml: field 'network.kind': value 'sumo' cannot be exported"
+
 # reports_fidelity CASE COMMAND...: expects a message on standard error that the fidelity is not used
 reports_fidelity() {
     local case_name=$1
@@ -54,7 +67,6 @@ printf 'Step #12.00 (0ms)\r'
 exec sleep 60
 END
 chmod +x "$work/bin/netconvert" "$work/bin/sumo"
-data="$STOPLINE_SOURCE/tests/data"
 cat >"$work/slow.yaml" <<END
 fidelity: meso
 duration: 60 s
