@@ -27,6 +27,9 @@ constexpr double kTargetGapFactor = 1.1;
 // If the follower in the target lane is slower than the lane-changing vehicle by more than this speed, the lag gap
 // grows by itself.
 constexpr double kDroppingBack_mps = 0.5;
+// Deceleration with which a vehicle that opens a gap plans its speed. It is smaller than SpeedTarget::kDeceleration_mps2,
+// with which the vehicle must be able to open the gap. So the vehicle brakes at once, and stays able to open the gap.
+constexpr double kPlannedOpening_mps2 = 1.5;
 
 class GapSearch {
 public:
@@ -52,11 +55,10 @@ private:
         add_yield_stop(state_.junctions, part_, lane_, {me.slot, place_m, -1, YieldReason::lane_change});
     }
 
-    // Returns the speed with which a vehicle gradually reaches its target gap behind `ahead`. The speed is at least the
-    // speed of `ahead` minus kFallBack_mps.
-    double gap_reaching_speed_mps(const Neighbour& ahead, int policy, double speed_mps) const {
+    // Returns the speed with which a vehicle gradually reaches its target gap behind `ahead`. It brakes with
+    // `braking_mps2`. The speed is at least the speed of `ahead` minus kFallBack_mps.
+    double gap_reaching_speed_mps(const Neighbour& ahead, int policy, double speed_mps, double braking_mps2) const {
         const DriverPlan& driver = model_.driver_of(policy);
-        const double braking_mps2 = driver.tables.stop.deceleration_mps2;
         const double share = kTargetGapFactor * driver.lane_change.gap_share;
         const double spare_gap_m =
             ahead.gap_m - share * desired_gap_m(model_, policy, std::min(speed_mps, ahead.speed_mps));
@@ -131,7 +133,8 @@ private:
         const Neighbour ahead{me.slot, opener.gap_m, me.speed_mps, me.policy};
         // If `me` waits almost at rest, the opener may stop completely. Otherwise the opener would creep past `me`.
         const double lowest_mps = me.speed_mps < kMinSpeed_mps ? 0.0 : kMinSpeed_mps;
-        return std::max(gap_reaching_speed_mps(ahead, opener.policy, opener.speed_mps), lowest_mps);
+        return std::max(gap_reaching_speed_mps(ahead, opener.policy, opener.speed_mps, kPlannedOpening_mps2),
+                        lowest_mps);
     }
 
     // Aligns the speed of `me` with a gap in the adjacent lane. If the lag gap is too short, makes a vehicle in the
@@ -147,7 +150,8 @@ private:
         // If the leader in the adjacent lane is slow, the vehicle does not align with it but drives on beside the
         // queue.
         if (there.leader.slot >= 0 && there.leader.speed_mps > kFallBack_mps) {
-            target_mps = gap_reaching_speed_mps(there.leader, me.policy, me.speed_mps);
+            const double braking_mps2 = model_.driver_of(me.policy).tables.stop.deceleration_mps2;
+            target_mps = gap_reaching_speed_mps(there.leader, me.policy, me.speed_mps, braking_mps2);
         }
         const Neighbour& follower = there.follower;
         if (must_let_pass(other, follower, me, change.urgency())) {

@@ -32,7 +32,8 @@ public:
 private:
     static constexpr double kFallBack_mps = 3.0;
     static constexpr double kMinSpeed_mps = 1.0;
-    static constexpr double kOpeningBraking_mps2 = 2.0;
+    static constexpr double kOpeningBraking_mps2 = 2.0;  // a vehicle that opens a gap must get by with this braking
+    static constexpr double kPlannedOpening_mps2 = 1.5;  // but plans with this one
 
     void wait_for_gap(Lane& on, const Request& me) {
         const double place_m = requests_.waiting_position_m(me);
@@ -41,14 +42,13 @@ private:
             on.add_yield_stop({v.index, place_m, -1});
     }
 
-    // Returns the speed with which a vehicle gradually reaches a gap behind another one.
-    double gap_reaching_mps(const Vehicle& v, double gap_m, double ahead_mps) const {
+    // Returns the speed with which a vehicle gradually reaches a gap behind another one. It brakes with `braking_mps2`.
+    double gap_reaching_mps(const Vehicle& v, double gap_m, double ahead_mps, double braking_mps2) const {
         constexpr double kTargetGapFactor = 1.1;
         const DriverSettings& driver = w_.driver(v);
         const double desired_m = w_.desired_gap_m(v.policy, std::min(v.speed_mps, ahead_mps));
         const double spare_m = gap_m - kTargetGapFactor * driver.lane_change.gap_share * desired_m;
-        return std::max(krauss_speed_mps(driver.stop.deceleration_mps2, kLanding_s, spare_m, ahead_mps),
-                        ahead_mps - kFallBack_mps);
+        return std::max(krauss_speed_mps(braking_mps2, kLanding_s, spare_m, ahead_mps), ahead_mps - kFallBack_mps);
     }
 
     // Returns true if the lag gap is too short and does not grow by itself. Of two vehicles that want to swap lanes,
@@ -97,13 +97,15 @@ private:
         double target_mps = kNoLimit;
         // A vehicle drives on beside a slow queue.
         if (there.leader.vehicle != nullptr && there.leader.speed_mps() > kFallBack_mps)
-            target_mps = gap_reaching_mps(v, there.leader.gap_m, there.leader.speed_mps());
+            target_mps =
+                gap_reaching_mps(v, there.leader.gap_m, there.leader.speed_mps(), w_.driver(v).stop.deceleration_mps2);
         if (must_let_pass(other, there.follower, me, change.urgency())) {
             const Neighbour opener = gap_opener(other, there.follower, me, change.urgency());
             if (opener.vehicle != nullptr) {
                 const double lowest_mps = v.speed_mps < kMinSpeed_mps ? 0.0 : kMinSpeed_mps;
                 add(other, *opener.vehicle,
-                    std::max(gap_reaching_mps(*opener.vehicle, opener.gap_m, v.speed_mps), lowest_mps));
+                    std::max(gap_reaching_mps(*opener.vehicle, opener.gap_m, v.speed_mps, kPlannedOpening_mps2),
+                             lowest_mps));
             }
             if (opener.vehicle != there.follower.vehicle)
                 target_mps = std::min(target_mps, std::max(there.follower.speed_mps() - kFallBack_mps, kMinSpeed_mps));

@@ -216,6 +216,23 @@ TEST_P(LaneChanging, WaitsBeforeTheStopLineWithoutAGap) {
     EXPECT_TRUE(track.state().records.lane_changes.empty());
 }
 
+// A vehicle waits at the stop line for a lane change. On the target lane a dense row of vehicles approaches at full
+// speed. A vehicle that can still brake gently lets it in.
+TEST(OpeningOfGaps, AnApproachingVehicleLetsAWaitingVehicleIn) {
+    for (const char* const fidelity : {"full", "meso"}) {
+        TrackPlan plan = plan_of({fidelity, "CTG-Ref"}, 2);
+        plan.overrides.emplace_back("driver.lane_change.gap_opening=on");
+        Track track(parallel_lanes(plan));
+        const int waiting_vehicle = place(track, 0, 1000.0 - track.model().common_driver().stop.margin_m, 0.0, 1);
+        constexpr int kRow = 40;
+        for (int k = 0; k < kRow; ++k) place(track, 1, 990.0 - 22.0 * k, 13.0, 1);
+        track.run(40.0);
+        ASSERT_EQ(track.state().records.lane_changes.size(), 1U) << fidelity;
+        EXPECT_EQ(track.state().records.lane_changes[0].vehicle, waiting_vehicle);
+        EXPECT_GT(track.state().blocks[2].count, kRow / 4) << fidelity << ": only the end of the row lets it in";
+    }
+}
+
 // A vehicle waits at the stop line for a lane change. The vehicle beside it stands so close behind that the gap is too
 // short, and it cannot open the gap any more. It must then go on, so that both vehicles leave.
 TEST(LongStandstillGap, VehicleThatCannotOpenTheGapGoesOn) {
