@@ -27,8 +27,8 @@ constexpr double kTargetGapFactor = 1.1;
 // If the follower in the target lane is slower than the lane-changing vehicle by more than this speed, the lag gap
 // grows by itself.
 constexpr double kDroppingBack_mps = 0.5;
-// Deceleration with which a vehicle that opens a gap plans its speed. It is smaller than SpeedTarget::kDeceleration_mps2,
-// with which the vehicle must be able to open the gap. So the vehicle brakes at once, and stays able to open the gap.
+// Deceleration with which a vehicle that opens a gap plans its speed. It is smaller than the deceleration that must
+// suffice to open the gap (SpeedTarget::kDeceleration_mps2). So the vehicle brakes at once, and stays able to open it.
 constexpr double kPlannedOpening_mps2 = 1.5;
 
 class GapSearch {
