@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/containers/index.h"
 #include "demand/demand_scenarios.h"
 #include "scenario/demand/plan_arrivals.h"
 #include "sim/insertion/insert_vehicles.h"
@@ -76,6 +77,40 @@ TEST(Arrivals, GiveTheSameBitsForAnyNumberOfThreads) {
 }
 
 // Vehicles are conserved: all that arrived have entered or wait, and all that entered have left or are present.
+// A queue stands at a red signal. Vehicles that arrive far upstream of its end enter at their entry speed.
+TEST(Arrivals, EnterAtTheirEntrySpeedUpstreamOfAQueue) {
+    constexpr double kFreeRoad_m = 80.0;
+    for (const std::string fidelity : {"meso", "full"}) {
+        for (const std::string policy : {"CTG-Ref", "CDG"}) {
+            const Scenario scenario = parse_scenario(
+                "{network: {approach: {length: 200 m}}, signal: {first_green: 900 s, green: 20 s}, duration: 950 s, "
+                "demand: {kind: rate, inflow: 150 veh/h, entry_speed: 50 km/h}}",
+                "test.yaml", {"fidelity=" + fidelity, "populations=[" + policy + "]"});
+            const Model model = build_model(scenario, 0);
+            Simulation simulation(model);
+            const State& state = simulation.state();
+            int far_upstream = 0;
+            int near_queue = 0;
+            while (model.time_s(state.tick) < 850.0) {
+                const auto entered = state.records.entered;
+                simulation.step();
+                const LaneBlock& block = state.blocks[0];
+                if (state.records.entered == entered || block.count < 2) continue;
+                const std::size_t last = at(block.last());
+                const double rear_m = state.vehicles.position_m[last - 1] - state.vehicles.length_m[last - 1];
+                if (state.vehicles.speed_mps[last - 1] > 0.1) continue;
+                ++(rear_m > kFreeRoad_m ? far_upstream : near_queue);
+                const double short_of_mps = 50.0 / 3.6 - state.vehicles.speed_mps[last];
+                EXPECT_TRUE(rear_m < kFreeRoad_m || short_of_mps < 0.5) << short_of_mps;
+                EXPECT_TRUE(rear_m > 0.25 * kFreeRoad_m || short_of_mps > 0.5) << short_of_mps;
+            }
+            EXPECT_GT(far_upstream, 10) << fidelity << ", " << policy;
+            EXPECT_GT(near_queue, 2) << fidelity << ", " << policy;
+            EXPECT_TRUE(state.records.violations.none()) << fidelity << ", " << policy;
+        }
+    }
+}
+
 TEST(Arrivals, AreConserved) {
     for (const char* const arrivals : {"even", "poisson", "platooned"}) {
         const Scenario scenario = parse_scenario(

@@ -1,12 +1,34 @@
 #include "sim/insertion/insert_vehicle.h"
 
+#include <algorithm>
+
 #include "base/containers/index.h"
 #include "driver/human.h"
 #include "sim/perception/reset_leader.h"
 #include "sim/state/lane_blocks.h"
+#include "sim/state/queries/desired_gap.h"
 #include "sim/state/queries/passage.h"
+#include "sim/state/queries/stopping_distance.h"
 
 namespace stopline {
+
+double safe_entry_speed_mps(const Model& model, int policy, double gap_m, double leader_mps, double wanted_mps) {
+    const auto is_safe = [&](double speed_mps) {
+        const double deceleration_mps2 = model.driver_of(policy).tables.stop.deceleration_mps2;
+        const double braking_m = braking_distance_m(speed_mps, leader_mps, deceleration_mps2);
+        return gap_m >= desired_gap_m(model, policy, speed_mps) + braking_m;
+    };
+    if (is_safe(wanted_mps)) return wanted_mps;
+    double safe_mps = std::min(wanted_mps, leader_mps);
+    if (!is_safe(safe_mps)) return -1.0;
+    constexpr int kHalvings = 12;  // the error is below 0.01 m/s
+    double unsafe_mps = wanted_mps;
+    for (int k = 0; k < kHalvings; ++k) {
+        const double middle_mps = 0.5 * (safe_mps + unsafe_mps);
+        (is_safe(middle_mps) ? safe_mps : unsafe_mps) = middle_mps;
+    }
+    return safe_mps;
+}
 
 int insert_vehicle(const Model& model, State& state, const NewVehicle& vehicle) {
     const int slot = vehicle.behind_last ? append_slot(state, vehicle.lane)

@@ -91,9 +91,13 @@ Entry entry_at(const Model& model, const State& state, int number, int policy) {
         const double position_m = rear_m - desired_gap_m(model, policy, speed_mps);
         return {position_m >= min_front_m, position_m, speed_mps};
     }
-    const double headway_s = model.demand.forms_backlog(number) ? kBacklogHeadway_s : model.demand.entry_headway_s;
-    const double room_m = desired_gap_m(model, policy, speed_mps) + speed_mps * headway_s * 0.5;
-    return {rear_m - min_front_m >= room_m, min_front_m, speed_mps};
+    const bool forms_backlog = model.demand.forms_backlog(number);
+    const double headway_s = forms_backlog ? kBacklogHeadway_s : model.demand.entry_headway_s;
+    const double gap_m = rear_m - min_front_m;
+    if (gap_m < desired_gap_m(model, policy, speed_mps) + speed_mps * headway_s * 0.5) return {};
+    // The vehicles of other inlets start as one queue.
+    if (!forms_backlog) return {true, min_front_m, speed_mps};
+    return {true, min_front_m, safe_entry_speed_mps(model, policy, gap_m, v.speed_mps[last], max_mps)};
 }
 
 // Copies acceleration and powertrain state from the leader to a new vehicle. The vehicle thus enters as part of an

@@ -204,21 +204,10 @@ double wanted_speed_mps(const Model& model, const State& state, int number, int 
 double departure_speed_mps(const Model& model, const Trip& trip, int policy, double wanted_mps,
                            const EntryLeader& leader) {
     if (!leader.exists()) return wanted_mps;
-    const auto is_safe = [&](double speed_mps) {
-        const StopSettings& stop = model.driver_of(policy).tables.stop;
-        const double braking_m = braking_distance_m(speed_mps, leader.speed_mps, stop.deceleration_mps2);
-        return leader.gap_m + kPositionRounding_m >= desired_gap_m(model, policy, speed_mps) + braking_m;
-    };
-    if (is_safe(wanted_mps)) return wanted_mps;
-    double safe_mps = std::min(wanted_mps, leader.speed_mps);
-    if (trip.depart_speed == Trip::DepartSpeed::given || !is_safe(safe_mps)) return -1.0;
-    constexpr int kHalvings = 12;  // the error is below 0.01 m/s
-    double unsafe_mps = wanted_mps;
-    for (int k = 0; k < kHalvings; ++k) {
-        const double middle_mps = 0.5 * (safe_mps + unsafe_mps);
-        (is_safe(middle_mps) ? safe_mps : unsafe_mps) = middle_mps;
-    }
-    return safe_mps;
+    const double safe_mps =
+        safe_entry_speed_mps(model, policy, leader.gap_m + kPositionRounding_m, leader.speed_mps, wanted_mps);
+    const bool is_given = trip.depart_speed == Trip::DepartSpeed::given;
+    return is_given && safe_mps < wanted_mps ? -1.0 : safe_mps;
 }
 
 // Returns true if a vehicle without priority that crosses the route of the new vehicle is inside the intersection and

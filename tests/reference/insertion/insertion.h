@@ -150,8 +150,28 @@ private:
             if (position_m < front_m) return std::nullopt;
             return Entry{position_m, speed_mps};
         }
-        if (last.rear_m() - front_m < desired_m + 0.5 * kHeadway_s * speed_mps) return std::nullopt;
-        return Entry{front_m, speed_mps};
+        const double gap_m = last.rear_m() - front_m;
+        if (gap_m < desired_m + 0.5 * kHeadway_s * speed_mps) return std::nullopt;
+        if (!demand.evenly_spaced && plan(number).headway_s == 0.0) return Entry{front_m, speed_mps};
+        return Entry{front_m, safe_mps(policy, gap_m, last.speed_mps, highest_mps)};
+    }
+
+    // Returns the highest speed, at most `wanted_mps`, from which a vehicle can brake comfortably to the speed of its
+    // leader and then has its desired gap. The leader's speed itself is safe.
+    double safe_mps(int policy, double gap_m, double leader_mps, double wanted_mps) const {
+        const auto is_safe = [&](double speed_mps) {
+            const double b = w_.kind(policy).settings().stop.deceleration_mps2;
+            const double braking_m = std::max(speed_mps * speed_mps - leader_mps * leader_mps, 0.0) / (2.0 * b);
+            return gap_m >= w_.desired_gap_m(policy, speed_mps) + braking_m;
+        };
+        if (is_safe(wanted_mps)) return wanted_mps;
+        double low_mps = std::min(leader_mps, wanted_mps);
+        double high_mps = wanted_mps;
+        for (int k = 0; k < 12; ++k) {
+            const double middle_mps = (low_mps + high_mps) / 2.0;
+            (is_safe(middle_mps) ? low_mps : high_mps) = middle_mps;
+        }
+        return low_mps;
     }
 
     std::optional<Entry> entry_on_empty_link(std::size_t number, int policy, double front_m, double highest_mps) const {
