@@ -35,7 +35,7 @@ Counts count_cuts(const std::string& fidelity, const std::string& range) {
     Simulation simulation(model);
     Counts counts;
     std::vector<Light> before = simulation.state().signals.lights;
-    while (simulation.time_s() < 1'800.0) {
+    while (simulation.time_s() < 5'400.0) {
         simulation.step();
         const State& state = simulation.state();
         for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
