@@ -270,6 +270,7 @@ MesoSettings step_one(const CalibrateCliOptions& options, const std::filesystem:
         run_sweep(options, file, {"fidelity=full"}, folder / "passages.sqlite", detector_metrics, "full dynamics");
     if (!given && !start.leader_profile_mps.empty()) measure_leader_profile(full.sweep.base(), start);
     const std::vector<CalibrationCase> cases = calibration_cases(full.sweep, full.store, start);
+    check_accepted(accepted, cases, options.accepted);
     MesoFit fit;
     if (!given) fit = run_fit(options, cases, full, start, folder);
     MesoSettings chosen = given ? *given : fit.settings;

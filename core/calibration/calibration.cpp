@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 
 #include "base/containers/index.h"
+#include "base/input_error.h"
 #include "base/io/csv.h"
+#include "base/nearest_name.h"
 #include "scenario/build_model.h"
 
 namespace stopline {
@@ -93,6 +95,26 @@ Agreement timing_agreement(const TimingResult& result, const std::vector<Calibra
         if (is_in(cases[k], subset)) pairs.push_back({&result.pairs[k], cases[k].cycle_s});
     }
     return agreement(pairs, kTimingLimit_s);
+}
+
+void check_accepted(const AcceptedFile& accepted, const std::vector<CalibrationCase>& cases, const std::string& file) {
+    constexpr std::size_t kListed = 10;
+    for (std::size_t entry = 0; entry < accepted.accepted.size(); ++entry) {
+        const AcceptedDifference& difference = accepted.accepted[entry];
+        const auto check = [&](const char* field, const std::string& name, const std::vector<std::string>& known) {
+            if (std::find(known.begin(), known.end(), name) != known.end()) return;
+            throw InputError(fmt::format("{}: field 'accepted[{}].{}': there is no {} '{}'{}", file, entry, field,
+                                         field, shortened(name), known_names_hint(name, known, kListed)));
+        };
+        std::vector<std::string> permutations;
+        for (const CalibrationCase& c : cases) permutations.push_back(c.permutation);
+        check("permutation", difference.permutation, permutations);
+        const auto found = std::find(permutations.begin(), permutations.end(), difference.permutation);
+        const Model& model = cases[static_cast<std::size_t>(found - permutations.begin())].fit.model;
+        std::vector<std::string> detectors;
+        for (std::size_t k = 0; k < model.detectors.size(); ++k) detectors.push_back(detector_name(model, k));
+        check("detector", difference.detector, detectors);
+    }
 }
 
 std::vector<TimingMiss> timing_misses(const TimingResult& result, const std::vector<CalibrationCase>& cases,

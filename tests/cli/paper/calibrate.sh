@@ -70,6 +70,18 @@ refused() {
 }
 refused "nonsense" "$work/timing.yaml" --step I --start nonsense
 refused "accepted" "$work/timing.yaml" --step I --accepted "$work/timing.yaml"
+# accepted PERMUTATION DETECTOR: writes a file with one accepted difference
+accepted() { printf 'accepted:\n- {permutation: "%s", detector: "%s", reason: none}\n' "$1" "$2" >"$work/accepted.yaml"; }
+permutation="green = 10 s, population = CDG"
+detector="$(python3 -c 'import csv, sys; print(next(csv.DictReader(open(sys.argv[1])))["detector"])' "$work/whole/differences.csv")"
+with_parameters=("$work/timing.yaml" --step I --parameters "$work/whole/fitted.yaml" --accepted "$work/accepted.yaml")
+accepted "$permutation" foo
+refused "accepted.yaml: field 'accepted[0].detector': there is no detector 'foo'" "${with_parameters[@]}"
+accepted "green = 11 s, population = CDG" "$detector"
+refused "there is no permutation 'green = 11 s, population = CDG'; did you mean '$permutation'" "${with_parameters[@]}"
+accepted "$permutation" "$detector"
+"$program" --output "$work/accepted" "${with_parameters[@]}" >"$work/stdout" 2>"$work/stderr" ||
+    fail "known names are refused: $(cat "$work/stderr")"
 sed 's/repetitions: 3/repetitions: 2/' "$work/metrics.yaml" >"$work/few.yaml"
 refused "at least 3 runs" --step II --metrics-sweep "$work/few.yaml" --parameters fitted
 refused "no result 'nonsense'" --step II --metrics-sweep "$work/metrics.yaml" --parameters fitted --metric nonsense
