@@ -57,7 +57,7 @@ TrackPlan plan_of(const Case& c, int lanes) {
     plan.lanes = lanes;
     plan.length_m = 1000.0;
     plan.overrides = {std::string("fidelity=") + c.fidelity};
-    if (std::string(c.fidelity) == "meso") plan.overrides.push_back("meso=fitted");
+    if (std::string(c.fidelity) == "meso") plan.overrides.emplace_back("meso=fitted");
     return plan;
 }
 
