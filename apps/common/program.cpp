@@ -83,7 +83,7 @@ ExitCode run_guarded(const std::string& name, const std::function<ExitCode()>& b
     } catch (const InputError& error) {
         // Child processes such as gnuplot receive the same Ctrl-C and fail. This is no error of the input.
         if (interrupted()) return report_interrupt(name);
-        // An error that is found after the input has been read names the field, but not the file.
+        // Messages about errors that are found after loading begin with the field. The name of the file is added here.
         const bool names_file = !std::string_view(error.what()).starts_with("field '");
         print_message("{}: {}{}{}\n", name, names_file ? "" : input_name(),
                       names_file || input_name().empty() ? "" : ": ", error.what());

@@ -61,6 +61,7 @@ struct TimingMiss {
     std::string cause;     // cause of the difference, as text
     std::string accepted;  // reason why the user accepts the difference; empty: not accepted
 };
+
 // Checks that the permutation and the detector of each entry exist. Throws InputError if not. `file`: name of the file
 // with the accepted differences, for the message.
 void check_accepted(const AcceptedFile& accepted, const std::vector<CalibrationCase>& cases, const std::string& file);

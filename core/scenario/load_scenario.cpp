@@ -89,7 +89,7 @@ void add_scalar(SourceNode& map, const std::string& name, const std::string& tex
     map.add({name, map.place}, std::move(value));
 }
 
-// Returns what is wrong with arriving platoons, which may not fit into the time between their arrivals.
+// Returns an error if demand.platoon_headway is too long for the arrival rate or the counts.
 std::vector<FieldProblem> platoon_problems(const Scenario& scenario) {
     if (scenario.demand.arrivals != "platooned" || !plans_arrivals(scenario)) return {};
     const NetworkKind& kind = network_kind(scenario.network);

@@ -64,8 +64,7 @@ std::vector<std::string> run_with_writers(Simulation& simulation, double end_s,
 void check_exportable(const Scenario& scenario) {
     if (network_kind(scenario.network).is_exportable) return;
     throw InputError(fmt::format(
-        "field 'network.kind': value '{}' cannot be exported: the scenario already names SUMO files; these can "
-        "be exported: {}",
+        "field 'network.kind': value '{}' cannot be exported: the scenario already names SUMO files; kinds that can be exported: {}",
         scenario.network.kind,
         fmt::join(kinds_with([](const NetworkKind& kind) { return kind.is_exportable; }), ", ")));
 }

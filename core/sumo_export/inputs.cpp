@@ -186,7 +186,7 @@ void write_lights(const std::filesystem::path& file, const Model& model, const P
         }
         throw InputError(
             fmt::format("field 'signal.controller': value '{}' reacts to traffic, so there is no programme to export; "
-                        "these can be exported: {}",
+                        "controllers that can be exported: {}",
                         plan.controller->name, fmt::join(exportable, ", ")));
     }
     XmlFile xml(file, "tlLogics", "tllogic_file.xsd");

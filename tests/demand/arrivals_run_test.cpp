@@ -76,7 +76,6 @@ TEST(Arrivals, GiveTheSameBitsForAnyNumberOfThreads) {
     EXPECT_EQ(one.state_hash(), three.state_hash());
 }
 
-// Vehicles are conserved: all that arrived have entered or wait, and all that entered have left or are present.
 // A queue stands at a red signal. Vehicles that arrive far upstream of its end enter at their entry speed.
 TEST(Arrivals, EnterAtTheirEntrySpeedUpstreamOfAQueue) {
     constexpr double kFreeRoad_m = 80.0;
@@ -111,6 +110,7 @@ TEST(Arrivals, EnterAtTheirEntrySpeedUpstreamOfAQueue) {
     }
 }
 
+// Vehicles are conserved: all that arrived have entered or wait, and all that entered have left or are present.
 TEST(Arrivals, AreConserved) {
     for (const char* const arrivals : {"even", "poisson", "platooned"}) {
         const Scenario scenario = parse_scenario(

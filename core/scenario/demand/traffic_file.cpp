@@ -6,10 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -307,8 +307,10 @@ std::vector<FieldProblem> read_traffic_file(Scenario& scenario, const std::files
     if (!in || std::filesystem::is_directory(file)) {
         return {{field, label + ": the file does not exist or cannot be read"}};
     }
-    const std::string text{std::istreambuf_iterator<char>(in), {}};
-    if (in.bad()) return {{field, label + ": the file cannot be read to its end"}};
+    std::ostringstream content;
+    const bool is_empty = in.peek() == std::ifstream::traits_type::eof() && !in.bad();
+    if (!is_empty && !(content << in.rdbuf())) return {{field, label + ": the file cannot be read"}};
+    const std::string text = content.str();
     std::vector<FieldProblem> problems;
     try {
         TrafficReader reader(scenario, parse_csv(text, label));

@@ -157,12 +157,9 @@ private:
                 vehicles[static_cast<std::size_t>(queue.cause)] += queue.count;
                 vehicles_upstream += count_upstream_of_area(queue);
                 earliest_tick = std::min(earliest_tick, queue.earliest_stop_tick);
-                const bool is_foremost = queue.lane != lane_ahead;
+                // Further queues of a lane stand behind other vehicles, so they cannot starve.
+                if (queue.lane != lane_ahead) watch_first(queue);
                 lane_ahead = queue.lane;
-                if (is_foremost) note_front(queue);
-                // Vehicles of the lane move ahead of the other queues. A queue that only waits for their start, the
-                // discharge, is still blocked by them.
-                if (is_foremost || queue.cause != DelayCause::queue_discharge) watch_first(queue);
                 if (const int delayed = count_in_episode(queue); delayed > 0) add_to_episode(queue, delayed);
             }
         }
@@ -204,20 +201,16 @@ private:
         episode.max_vehicles = std::max(episode.max_vehicles, episode.current_vehicles);
     }
 
-    // Notes which vehicle is the first one of the foremost queue on its lane. While another vehicle of the lane stood
-    // ahead, this vehicle was blocked.
-    void note_front(const StoppedQueue& queue) {
-        LaneWatch& lane = watch_.lanes[at(queue.lane)];
-        const int id = v_.id[at(queue.first)];
-        if (lane.front_id == id) return;
-        lane.front_id = id;
-        lane.front_tick = now_;
-    }
-
-    // Notes on its lane that the way of the first vehicle of a queue is blocked. Records a first vehicle that starves.
+    // Watches the first vehicle of the foremost queue of a lane: notes since when it has been the first one, notes that
+    // its way is blocked, and records that it starves.
     void watch_first(const StoppedQueue& queue) {
+        LaneWatch& lane = watch_.lanes[at(queue.lane)];
+        if (const int id = v_.id[at(queue.first)]; lane.front_id != id) {
+            lane.front_id = id;
+            lane.front_tick = now_;
+        }
         if (queue.head != queue.first || blocks_the_way(queue.cause)) {
-            watch_.lanes[at(queue.lane)].last_blocked_tick = now_;
+            lane.last_blocked_tick = now_;
         } else if (starves(queue)) {
             record_starvation(queue);
         }
@@ -227,13 +220,13 @@ private:
     // change does not count as blocked.
     static bool blocks_the_way(DelayCause cause) { return is_blocking(cause) && cause != DelayCause::wrong_lane; }
 
-    // Returns the tick since which the first vehicle has been stopped without an observed blockage ahead. During red,
+    // Returns the tick since which the first vehicle has been stopped without an observed blockage ahead. The time
+    // before LaneWatch::front_tick does not count, because another stopped vehicle of the lane was ahead. During red,
     // the cause is the signal, even if the way is blocked. starves() therefore requires two signal cycles without an
     // observed blockage, so that a vehicle that is blocked at each green does not starve.
     std::int64_t unblocked_since(const StoppedQueue& queue) const {
         const LaneWatch& lane = watch_.lanes[at(queue.lane)];
-        const int since = std::max(v_.stopped_since[at(queue.first)], lane.last_blocked_tick);
-        return lane.front_id == v_.id[at(queue.first)] ? std::max(since, lane.front_tick) : since;
+        return std::max({v_.stopped_since[at(queue.first)], lane.last_blocked_tick, lane.front_tick});
     }
 
     // Returns true if the first vehicle, which must be the queue head, has been stopped for

@@ -19,7 +19,7 @@ struct NewVehicle {
 
 // Returns the highest speed, at most `wanted_mps`, with which a new vehicle can enter at a net gap `gap_m` behind a
 // leader. The gap then contains the desired gap of the policy at this speed, and the distance of comfortable braking to
-// the speed of the leader. Returns -1 if the gap does not suffice even for the lower of the two speeds.
+// the speed of the leader. Returns -1 if the gap is too short even at the lower one of `wanted_mps` and `leader_mps`.
 double safe_entry_speed_mps(const Model& model, int policy, double gap_m, double leader_mps, double wanted_mps);
 
 // Inserts a vehicle and returns its slot. The caller must then put the vehicle on its route (adopt_lane_route() or

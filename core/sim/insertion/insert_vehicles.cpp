@@ -95,9 +95,10 @@ Entry entry_at(const Model& model, const State& state, int number, int policy) {
     const double headway_s = forms_backlog ? kBacklogHeadway_s : model.demand.entry_headway_s;
     const double gap_m = rear_m - min_front_m;
     if (gap_m < desired_gap_m(model, policy, speed_mps) + speed_mps * headway_s * 0.5) return {};
-    // The vehicles of other inlets start as one queue.
+    // Without arrival times, vehicles enter with the speed of the vehicle ahead, as one queue.
     if (!forms_backlog) return {true, min_front_m, speed_mps};
-    return {true, min_front_m, safe_entry_speed_mps(model, policy, gap_m, v.speed_mps[last], max_mps)};
+    const double safe_mps = safe_entry_speed_mps(model, policy, gap_m, v.speed_mps[last], max_mps);
+    return {safe_mps >= 0.0, min_front_m, safe_mps};
 }
 
 // Copies acceleration and powertrain state from the leader to a new vehicle. The vehicle thus enters as part of an

@@ -27,8 +27,8 @@ constexpr double kTargetGapFactor = 1.1;
 // If the follower in the target lane is slower than the lane-changing vehicle by more than this speed, the lag gap
 // grows by itself.
 constexpr double kDroppingBack_mps = 0.5;
-// Deceleration with which a vehicle that opens a gap plans its speed. It is smaller than the deceleration that must
-// suffice to open the gap (SpeedTarget::kDeceleration_mps2). So the vehicle brakes at once, and stays able to open it.
+// Planned deceleration of a vehicle that opens a gap. It is lower than SpeedTarget::kDeceleration_mps2, the limit for
+// the choice of this vehicle. The vehicle therefore brakes as soon as it is chosen, and keeps a reserve.
 constexpr double kPlannedOpening_mps2 = 1.5;
 
 class GapSearch {
@@ -55,8 +55,8 @@ private:
         add_yield_stop(state_.junctions, part_, lane_, {me.slot, place_m, -1, YieldReason::lane_change});
     }
 
-    // Returns the speed with which a vehicle gradually reaches its target gap behind `ahead`. It brakes with
-    // `braking_mps2`. The speed is at least the speed of `ahead` minus kFallBack_mps.
+    // Returns the speed with which a vehicle gradually reaches its target gap behind `ahead`. The speed is at least the
+    // speed of `ahead` minus kFallBack_mps. `braking_mps2`: planned deceleration.
     double gap_reaching_speed_mps(const Neighbour& ahead, int policy, double speed_mps, double braking_mps2) const {
         const DriverPlan& driver = model_.driver_of(policy);
         const double share = kTargetGapFactor * driver.lane_change.gap_share;
@@ -133,8 +133,9 @@ private:
         const Neighbour ahead{me.slot, opener.gap_m, me.speed_mps, me.policy};
         // If `me` waits almost at rest, the opener may stop completely. Otherwise the opener would creep past `me`.
         const double lowest_mps = me.speed_mps < kMinSpeed_mps ? 0.0 : kMinSpeed_mps;
-        return std::max(gap_reaching_speed_mps(ahead, opener.policy, opener.speed_mps, kPlannedOpening_mps2),
-                        lowest_mps);
+        const double comfortable_mps2 = model_.driver_of(opener.policy).tables.stop.deceleration_mps2;
+        const double braking_mps2 = std::min(kPlannedOpening_mps2, comfortable_mps2);
+        return std::max(gap_reaching_speed_mps(ahead, opener.policy, opener.speed_mps, braking_mps2), lowest_mps);
     }
 
     // Aligns the speed of `me` with a gap in the adjacent lane. If the lag gap is too short, makes a vehicle in the

@@ -30,7 +30,7 @@ message_has() { grep -qF -- "$2" "$work/stderr" || fail "$1: '$2' is missing in:
 export_new=("$STOPLINE_BIN/stopline-export" --sumo "$work/new")
 refused "export of a controller that reacts to traffic" "${export_new[@]}" "$scenarios/dual_ring.yaml"
 message_has "controller" "$scenarios/dual_ring.yaml: field 'signal.controller': value 'dual_ring' reacts to traffic"
-message_has "controller" "these can be exported: fixed_time"
+message_has "controller" "controllers that can be exported: fixed_time"
 data="$STOPLINE_SOURCE/tests/data"
 printf 'network: {kind: sumo, net: %s/roundabout.net.xml, routes: [%s/roundabout.rou.xml]}\nduration: 60 s\n' \
     "$data" "$data" >"$work/imported.yaml"

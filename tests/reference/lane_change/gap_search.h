@@ -103,9 +103,10 @@ private:
             const Neighbour opener = gap_opener(other, there.follower, me, change.urgency());
             if (opener.vehicle != nullptr) {
                 const double lowest_mps = v.speed_mps < kMinSpeed_mps ? 0.0 : kMinSpeed_mps;
+                const double braking_mps2 =
+                    std::min(kPlannedOpening_mps2, w_.driver(*opener.vehicle).stop.deceleration_mps2);
                 add(other, *opener.vehicle,
-                    std::max(gap_reaching_mps(*opener.vehicle, opener.gap_m, v.speed_mps, kPlannedOpening_mps2),
-                             lowest_mps));
+                    std::max(gap_reaching_mps(*opener.vehicle, opener.gap_m, v.speed_mps, braking_mps2), lowest_mps));
             }
             if (opener.vehicle != there.follower.vehicle)
                 target_mps = std::min(target_mps, std::max(there.follower.speed_mps() - kFallBack_mps, kMinSpeed_mps));
