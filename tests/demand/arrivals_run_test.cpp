@@ -156,7 +156,7 @@ TEST(DepartureDelay, OfABlockedApproachIsTheTimeSinceTheArrival) {
         EXPECT_GE(offset, 0.0);
         EXPECT_LT(offset, 1.0);
         double sum_s = 0.0;
-        for (double k = entered; k < 50.0; k += 1.0) sum_s += kEnd_s - 10.0 * (k + offset);
+        for (int k = static_cast<int>(entered); k < 50; ++k) sum_s += kEnd_s - 10.0 * (k + offset);
         const double step_s = model.step_s;
         EXPECT_NEAR(delays.sum_s, sum_s, entered * step_s);
         EXPECT_NEAR(delays.mean_s(), sum_s / 50.0, step_s);
