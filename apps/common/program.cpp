@@ -84,9 +84,8 @@ ExitCode run_guarded(const std::string& name, const std::function<ExitCode()>& b
         // Child processes such as gnuplot receive the same Ctrl-C and fail. This is no error of the input.
         if (interrupted()) return report_interrupt(name);
         // Messages about errors that are found after loading begin with the field. The name of the file is added here.
-        const bool names_file = !std::string_view(error.what()).starts_with("field '");
-        print_message("{}: {}{}{}\n", name, names_file ? "" : input_name(),
-                      names_file || input_name().empty() ? "" : ": ", error.what());
+        const bool lacks_file = std::string_view(error.what()).starts_with("field '") && !input_name().empty();
+        print_message("{}: {}{}\n", name, lacks_file ? input_name() + ": " : "", error.what());
         return ExitCode::bad_input;
     } catch (const Interrupted&) {
         return report_interrupt(name);

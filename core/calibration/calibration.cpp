@@ -99,6 +99,8 @@ Agreement timing_agreement(const TimingResult& result, const std::vector<Calibra
 
 void check_accepted(const AcceptedFile& accepted, const std::vector<CalibrationCase>& cases, const std::string& file) {
     constexpr std::size_t kListed = 10;
+    std::vector<std::string> permutations;
+    for (const CalibrationCase& c : cases) permutations.push_back(c.permutation);
     for (std::size_t entry = 0; entry < accepted.accepted.size(); ++entry) {
         const AcceptedDifference& difference = accepted.accepted[entry];
         const auto check = [&](const char* field, const std::string& name, const std::vector<std::string>& known) {
@@ -106,8 +108,6 @@ void check_accepted(const AcceptedFile& accepted, const std::vector<CalibrationC
             throw InputError(fmt::format("{}: field 'accepted[{}].{}': there is no {} '{}'{}", file, entry, field,
                                          field, shortened(name), known_names_hint(name, known, kListed)));
         };
-        std::vector<std::string> permutations;
-        for (const CalibrationCase& c : cases) permutations.push_back(c.permutation);
         check("permutation", difference.permutation, permutations);
         const auto found = std::find(permutations.begin(), permutations.end(), difference.permutation);
         const Model& model = cases[static_cast<std::size_t>(found - permutations.begin())].fit.model;

@@ -63,10 +63,11 @@ std::vector<std::string> run_with_writers(Simulation& simulation, double end_s,
 
 void check_exportable(const Scenario& scenario) {
     if (network_kind(scenario.network).is_exportable) return;
-    throw InputError(fmt::format(
-        "field 'network.kind': value '{}' cannot be exported: the scenario already names SUMO files; kinds that can be exported: {}",
-        scenario.network.kind,
-        fmt::join(kinds_with([](const NetworkKind& kind) { return kind.is_exportable; }), ", ")));
+    throw InputError(
+        fmt::format("field 'network.kind': value '{}' cannot be exported: the scenario already names SUMO files; "
+                    "kinds that can be exported: {}",
+                    scenario.network.kind,
+                    fmt::join(kinds_with([](const NetworkKind& kind) { return kind.is_exportable; }), ", ")));
 }
 
 std::string sumo_limits_note(const Model& model) {

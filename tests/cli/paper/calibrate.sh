@@ -71,9 +71,12 @@ refused() {
 refused "nonsense" "$work/timing.yaml" --step I --start nonsense
 refused "accepted" "$work/timing.yaml" --step I --accepted "$work/timing.yaml"
 # accepted PERMUTATION DETECTOR: writes a file with one accepted difference
-accepted() { printf 'accepted:\n- {permutation: "%s", detector: "%s", reason: none}\n' "$1" "$2" >"$work/accepted.yaml"; }
+accepted() {
+    printf 'accepted:\n- {permutation: "%s", detector: "%s", reason: none}\n' "$1" "$2" >"$work/accepted.yaml"
+}
 permutation="green = 10 s, population = CDG"
-detector="$(python3 -c 'import csv, sys; print(next(csv.DictReader(open(sys.argv[1])))["detector"])' "$work/whole/differences.csv")"
+first_detector='import csv, sys; print(next(csv.DictReader(open(sys.argv[1])))["detector"])'
+detector="$(python3 -c "$first_detector" "$work/whole/differences.csv")"
 with_parameters=("$work/timing.yaml" --step I --parameters "$work/whole/fitted.yaml" --accepted "$work/accepted.yaml")
 accepted "$permutation" foo
 refused "accepted.yaml: field 'accepted[0].detector': there is no detector 'foo'" "${with_parameters[@]}"

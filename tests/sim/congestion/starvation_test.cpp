@@ -1,8 +1,6 @@
 // The starvation watch on a single lane. tests/runs/network/starvation_test.cpp tests it in whole runs.
 #include <gtest/gtest.h>
 
-#include <utility>
-
 #include "support/track.h"
 
 namespace stopline {
@@ -26,11 +24,11 @@ Model lane_with_signal() {
     return model;
 }
 
-// Keeps the k-th vehicle of the lane at rest at a position until the next step.
-void hold(Track& track, int k, double position_m) {
+// Keeps the k-th vehicle of a lane at rest at a position until the next step.
+void hold(Track& track, int lane, int k, double position_m) {
     VehicleArrays& v = track.mutable_state().vehicles;
-    v.speed_mps[track.slot(0, k)] = 0.0;
-    v.position_m[track.slot(0, k)] = position_m;
+    v.speed_mps[track.slot(lane, k)] = 0.0;
+    v.position_m[track.slot(lane, k)] = position_m;
 }
 
 constexpr double kFirst_m = 480.0;
@@ -45,7 +43,7 @@ TEST(StarvationWatch, VehiclesBehindTheFirstVehicleOfTheirLaneDoNotStarve) {
     track.place(0, kFirst_m - 2.0 * space_m, 0.0);
     const std::int64_t release = to_ticks(kHeld_s, track.step_s());
     while (track.state().tick < release) {
-        hold(track, 0, kFirst_m);
+        hold(track, 0, 0, kFirst_m);
         track.step();
     }
     ASSERT_EQ(track.state().blocks[0].count, 3) << "all vehicles stand";
@@ -65,8 +63,8 @@ TEST(StarvationWatch, VehiclesThatWaitForTheDischargeDoNotStarve) {
     const std::int64_t release = to_ticks(kHeld_s, track.step_s());
     bool third_stands_alone = false;
     while (track.state().tick < release + to_ticks(30.0, track.step_s())) {
-        hold(track, 0, kFirst_m);
-        if (track.state().tick < release) hold(track, 1, second_m);
+        hold(track, 0, 0, kFirst_m);
+        if (track.state().tick < release) hold(track, 0, 1, second_m);
         track.step();
         third_stands_alone =
             third_stands_alone || (track.vehicle(0, 1).speed_mps > 0.1 && track.vehicle(0, 2).speed_mps < 0.1);
@@ -85,9 +83,7 @@ TEST(StarvationWatch, VehiclesBehindAVehicleOfTheNextLaneDoNotStarve) {
     track.place(0, 497.0, 0.0);
     const std::int64_t release = to_ticks(kHeld_s, track.step_s());
     while (track.state().tick < release) {
-        VehicleArrays& v = track.mutable_state().vehicles;
-        v.speed_mps[track.slot(1, 0)] = 0.0;
-        v.position_m[track.slot(1, 0)] = exit_m;
+        hold(track, 1, 0, exit_m);
         track.step();
     }
     ASSERT_EQ(track.state().blocks[0].count, 1);
