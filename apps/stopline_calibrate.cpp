@@ -127,9 +127,9 @@ struct CompletedSweep {
     SweepTotals totals;
 };
 
-CompletedSweep run_sweep(const CalibrateCliOptions& options, const std::string& file,
-                         const std::vector<std::string>& overrides, const std::filesystem::path& store_file,
-                         RunFunction run, const std::string& label) {
+// Loads a sweep file with the settings of the command line and with `overrides`. Prints its warnings.
+Sweep open_sweep(const CalibrateCliOptions& options, const std::string& file,
+                 const std::vector<std::string>& overrides) {
     SweepOptions sweep_options;
     sweep_options.overrides = options.common.settings;
     if (options.common.seed) sweep_options.overrides.push_back(fmt::format("seed={}", *options.common.seed));
@@ -137,6 +137,12 @@ CompletedSweep run_sweep(const CalibrateCliOptions& options, const std::string& 
     sweep_options.threads = thread_count(options.common.threads);
     Sweep sweep(load_sweep(file), sweep_options);
     print_warnings(sweep.warnings());
+    return sweep;
+}
+
+// Runs all points of a sweep that are not stored yet. `file` is the sweep file.
+CompletedSweep run_sweep(const CalibrateCliOptions& options, const std::string& file, Sweep sweep,
+                         const std::filesystem::path& store_file, RunFunction run, const std::string& label) {
     RunStore store = open_store(store_file, label, sweep.key(), sweep.points(),
                                 sweep_provenance(sweep, command_text("stopline-calibrate", file, options.common)));
     const std::vector<std::size_t> todo = missing_points(sweep, Shard{}, store);
@@ -144,7 +150,7 @@ CompletedSweep run_sweep(const CalibrateCliOptions& options, const std::string& 
     {
         ProgressBar bar(fmt::format("{}: {} runs", label, sweep.points()));
         SweepRunOptions run_options;
-        run_options.threads = sweep_options.threads;
+        run_options.threads = thread_count(options.common.threads);
         run_options.on_progress = [&bar](double share) { return bar.update(share); };
         run_options.run = run;
         if (!todo.empty()) session = run_points(sweep, todo, store, run_options);
@@ -266,11 +272,12 @@ MesoSettings step_one(const CalibrateCliOptions& options, const std::filesystem:
     MesoSettings start = load_meso_file(options.start);
     std::optional<MesoSettings> given;
     if (!options.parameters.empty()) given = load_meso_file(options.parameters);
+    Sweep sweep = open_sweep(options, file, {"fidelity=full"});
+    check_accepted(accepted, sweep, options.accepted);
     const CompletedSweep full =
-        run_sweep(options, file, {"fidelity=full"}, folder / "passages.sqlite", detector_metrics, "full dynamics");
+        run_sweep(options, file, std::move(sweep), folder / "passages.sqlite", detector_metrics, "full dynamics");
     if (!given && !start.leader_profile_mps.empty()) measure_leader_profile(full.sweep.base(), start);
     const std::vector<CalibrationCase> cases = calibration_cases(full.sweep, full.store, start);
-    check_accepted(accepted, cases, options.accepted);
     MesoFit fit;
     if (!given) fit = run_fit(options, cases, full, start, folder);
     MesoSettings chosen = given ? *given : fit.settings;
@@ -327,8 +334,8 @@ void step_two(const CalibrateCliOptions& options, const std::filesystem::path& f
     const std::string file = options.metrics_sweep.empty() ? scenario_file("intersection.yaml") : options.metrics_sweep;
     const std::filesystem::path parameters = folder / "parameters.yaml";
     write_file(parameters, meso_yaml(chosen, "The parameters of this calibration."));
-    const CompletedSweep full =
-        run_sweep(options, file, {"fidelity=full"}, folder / "metrics_full.sqlite", run_metrics, "full dynamics");
+    const CompletedSweep full = run_sweep(options, file, open_sweep(options, file, {"fidelity=full"}),
+                                          folder / "metrics_full.sqlite", run_metrics, "full dynamics");
     const std::vector<std::string> metrics = band_metrics(full.store, current_metrics(options.metrics));
     std::vector<std::pair<std::string, std::string>> files;
     const std::string reference = load_meso_file(options.reference).name;
@@ -337,8 +344,8 @@ void step_two(const CalibrateCliOptions& options, const std::filesystem::path& f
     std::vector<BandCheck> checks;
     for (const auto& [name, meso] : sets) {
         const CompletedSweep runs =
-            run_sweep(options, file, {"fidelity=meso", "meso=" + meso}, folder / ("metrics_" + name + ".sqlite"),
-                      run_metrics, "mesoscale mode, " + name);
+            run_sweep(options, file, open_sweep(options, file, {"fidelity=meso", "meso=" + meso}),
+                      folder / ("metrics_" + name + ".sqlite"), run_metrics, "mesoscale mode, " + name);
         checks.push_back(check_bands(full.sweep, full.store, runs.store, metrics));
         files.emplace_back("bands_" + name + ".csv", bands_csv(checks.back()));
         no_violations = no_violations && runs.totals.runs_with_violations == 0;

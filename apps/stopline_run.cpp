@@ -222,6 +222,13 @@ ExitCode run_as_intersection(const RunCliOptions& options, const Scenario& scena
     return report.no_violations() && report.no_starvation() ? ExitCode::done : ExitCode::check_failed;
 }
 
+// Returns a line on where to find the teleported vehicles; empty if there are none.
+std::string teleports_hint(const NetworkReport& report) {
+    const auto teleports = [](const NetworkResult& result) { return result.delays.teleported > 0; };
+    const bool any = std::any_of(report.populations.begin(), report.populations.end(), teleports);
+    return any ? "  rules.csv lists each teleported vehicle with its lane and time\n" : "";
+}
+
 // Runs a network and writes its results. Trajectories are written during the run.
 ExitCode run_as_network(const RunCliOptions& options, const Scenario& scenario, double /*interval_s*/,
                         const std::filesystem::path& folder, RunFiles& run_files) {
@@ -254,10 +261,11 @@ ExitCode run_as_network(const RunCliOptions& options, const Scenario& scenario, 
     }
     fmt::print(
         "\nNext:\n"
-        "  delays.csv lists each delay: its cause, lane, time, and the vehicle that caused it\n"
+        "  lane_delays.csv adds up the delays of each lane by cause; delays.csv lists each one\n"
+        "{}"
         "{}"
         "  many variations at once: {} --help\n",
-        variation, program_command("stopline-sweep"));
+        teleports_hint(report), variation, program_command("stopline-sweep"));
     return report.no_violations() && report.no_starvation() ? ExitCode::done : ExitCode::check_failed;
 }
 
@@ -358,6 +366,7 @@ ExitCode run(const RunCliOptions& options) {
     if (options.file.empty()) {
         throw InputError(runnable("no scenario file given; try: stopline-run scenarios/single_light.yaml (or --help)"));
     }
+    const std::filesystem::file_time_type start = std::filesystem::file_time_type::clock::now();
     const Scenario scenario = load_with_options(options.file, options.common);
     for (const std::string& line : sumo_warnings(scenario)) print_message("SUMO import: {}\n", line);
     for (const std::string& line : sumo_notes(scenario)) print_message("note: {}\n", line);
@@ -379,7 +388,9 @@ ExitCode run(const RunCliOptions& options) {
     run_files.prepare();
     prepare_folder(folder);
     if (options.trajectories && !reporter.streams_trajectories) prepare_output_file(folder / options.trajectories_file);
-    return reporter.run(options, scenario, interval_s, folder, run_files);
+    const ExitCode code = reporter.run(options, scenario, interval_s, folder, run_files);
+    print_older_files(folder, start);
+    return code;
 }
 
 }  // namespace

@@ -1,9 +1,12 @@
 #include "common/results.h"
 
+#include <algorithm>
 #include <exception>
 #include <optional>
+#include <system_error>
 
 #include <fmt/core.h>
+#include <fmt/format.h>
 
 #include "base/input_error.h"
 #include "common/program.h"
@@ -39,6 +42,25 @@ void draw_figures(const std::vector<Figure>& figures, const std::filesystem::pat
         }
     }
     if (first_error) std::rethrow_exception(first_error);
+}
+
+void print_older_files(const std::filesystem::path& folder, std::filesystem::file_time_type start) {
+    std::vector<std::string> names;
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+        const std::string name = entry.path().filename().string();
+        const bool is_result = name.ends_with(".csv") || name.ends_with(".svg") || name.ends_with(".png") ||
+                               name.ends_with(".provenance.json");
+        if (!is_result || !entry.is_regular_file(ignored)) continue;
+        if (entry.last_write_time(ignored) < start) names.push_back(name);
+    }
+    if (names.empty()) return;
+    std::sort(names.begin(), names.end());
+    constexpr std::size_t kListed = 8;
+    const std::size_t others = names.size() - std::min(names.size(), kListed);
+    names.resize(names.size() - others);
+    print_message("note: {} also holds files of earlier runs: {}{}\n", folder.string(), fmt::join(names, ", "),
+                  others > 0 ? fmt::format(" and {} more", others) : "");
 }
 
 }  // namespace stopline

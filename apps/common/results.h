@@ -18,4 +18,7 @@ std::string required_program_identity();
 // after Ctrl-C.
 void draw_figures(const std::vector<Figure>& figures, const std::filesystem::path& folder);
 
+// Prints the names of the tables and figures in `folder` that were written before `start`: earlier runs left them.
+void print_older_files(const std::filesystem::path& folder, std::filesystem::file_time_type start);
+
 }  // namespace stopline

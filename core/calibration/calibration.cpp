@@ -97,10 +97,11 @@ Agreement timing_agreement(const TimingResult& result, const std::vector<Calibra
     return agreement(pairs, kTimingLimit_s);
 }
 
-void check_accepted(const AcceptedFile& accepted, const std::vector<CalibrationCase>& cases, const std::string& file) {
+void check_accepted(const AcceptedFile& accepted, const Sweep& sweep, const std::string& file) {
+    if (accepted.accepted.empty()) return;
     constexpr std::size_t kListed = 10;
     std::vector<std::string> permutations;
-    for (const CalibrationCase& c : cases) permutations.push_back(c.permutation);
+    for (std::size_t point = 0; point < sweep.points(); ++point) permutations.push_back(permutation_text(sweep, point));
     for (std::size_t entry = 0; entry < accepted.accepted.size(); ++entry) {
         const AcceptedDifference& difference = accepted.accepted[entry];
         const auto check = [&](const char* field, const std::string& name, const std::vector<std::string>& known) {
@@ -110,7 +111,9 @@ void check_accepted(const AcceptedFile& accepted, const std::vector<CalibrationC
         };
         check("permutation", difference.permutation, permutations);
         const auto found = std::find(permutations.begin(), permutations.end(), difference.permutation);
-        const Model& model = cases[static_cast<std::size_t>(found - permutations.begin())].fit.model;
+        const auto point = static_cast<std::size_t>(found - permutations.begin());
+        const Scenario scenario = sweep.scenario(sweep.combination(point));
+        const Model model = build_model(scenario, index_of_population(scenario, sweep.population(point)));
         std::vector<std::string> detectors;
         for (std::size_t k = 0; k < model.detectors.size(); ++k) detectors.push_back(detector_name(model, k));
         check("detector", difference.detector, detectors);

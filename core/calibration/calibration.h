@@ -64,7 +64,7 @@ struct TimingMiss {
 
 // Checks that the permutation and the detector of each entry exist. Throws InputError if not. `file`: name of the file
 // with the accepted differences, for the message.
-void check_accepted(const AcceptedFile& accepted, const std::vector<CalibrationCase>& cases, const std::string& file);
+void check_accepted(const AcceptedFile& accepted, const Sweep& sweep, const std::string& file);
 
 std::vector<TimingMiss> timing_misses(const TimingResult& result, const std::vector<CalibrationCase>& cases,
                                       const AcceptedFile& accepted);

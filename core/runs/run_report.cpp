@@ -63,6 +63,7 @@ std::vector<NamedText> result_tables(const NetworkReport& report) {
                                   {"series.csv", network_series_csv(report)},
                                   {"origin_destination.csv", origin_destination_csv(report)},
                                   {"delays.csv", delays_csv(report)},
+                                  {"lane_delays.csv", lane_delays_csv(report)},
                                   {"gridlocks.csv", gridlocks_csv(report)},
                                   {"starvations.csv", starvations_csv(report.starvations(), report.lanes)},
                                   {"rules.csv", rules_csv(report)}};

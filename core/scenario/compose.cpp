@@ -168,14 +168,20 @@ void complete_field(const Table& table, const Field& field, SourceNode& map, con
     }
 }
 
+// Returns the list entry with this name; null if there is none.
+template <class List>
+auto* find_entry_by_name(List& list, const std::string& name) {
+    const auto found = std::find_if(list.items.begin(), list.items.end(), [&](const SourceNode& item) {
+        return name_of(item) != nullptr && name_of(item)->text == name;
+    });
+    return found == list.items.end() ? nullptr : &*found;
+}
+
 // Returns the list entry with the index or the name `entry`; null if there is none.
 SourceNode* find_entry(SourceNode& list, const std::string& entry) {
     const ParsedWhole index = parse_whole(entry);
     if (index.problem.empty()) return index.value < list.items.size() ? &list.items[index.value] : nullptr;
-    const auto found = std::find_if(list.items.begin(), list.items.end(), [&](const SourceNode& item) {
-        return name_of(item) != nullptr && name_of(item)->text == entry;
-    });
-    return found == list.items.end() ? nullptr : &*found;
+    return find_entry_by_name(list, entry);
 }
 
 std::string entries_text(const SourceNode& list) {
@@ -190,7 +196,9 @@ std::string entries_text(const SourceNode& list) {
 // Sets the field at a path to a value. Reports an error if the path does not exist.
 class Setter {
 public:
-    Setter(SourceNode value, Report& report) : value_(std::move(value)), report_(report) {}
+    // `file`: the tree before all overrides.
+    Setter(SourceNode value, const SourceNode& file, Report& report)
+        : value_(std::move(value)), file_(file), report_(report) {}
 
     void set(const Table& table, SourceNode& map, const std::vector<PathStep>& steps, std::size_t i,
              const std::string& path) {
@@ -202,6 +210,7 @@ public:
         const bool last = i + 1 == steps.size();
         if (last && step.entries.empty()) {
             replace_old_names(*field, value_, here, report_);
+            if (i == 0) use_entries_of_file(step.name);
             SourceNode* const present = map.find(step.name);
             if (present != nullptr) {
                 *present = std::move(value_);
@@ -228,6 +237,17 @@ public:
     const std::string& reached() const { return reached_; }
 
 private:
+    // Replaces each word in the new list by the entry of this name in the file. Thus --set 'populations=[MIX]' selects a
+    // population that the file describes.
+    void use_entries_of_file(const std::string& field) {
+        const SourceNode* const list = file_.find(field);
+        if (list == nullptr || value_.kind != Kind::list) return;
+        for (SourceNode& item : value_.items) {
+            if (item.kind != Kind::scalar) continue;
+            if (const SourceNode* const entry = find_entry_by_name(*list, item.text)) item = *entry;
+        }
+    }
+
     void set_entry(const Field& field, SourceNode& map, const std::vector<PathStep>& steps, std::size_t i,
                    const std::string& path) {
         SourceNode* const list = map.find(field.name);
@@ -254,6 +274,7 @@ private:
     }
 
     SourceNode value_;
+    const SourceNode& file_;
     Report& report_;
     std::string reached_;
 };
@@ -291,7 +312,7 @@ void complete(const Table& table, SourceNode& map, const std::string& path, Repo
     }
 }
 
-std::string apply_override(const Table& table, SourceNode& root, const std::string& text,
+std::string apply_override(const Table& table, SourceNode& root, const SourceNode& file, const std::string& text,
                            const std::filesystem::path& directory, Report& report) {
     const auto equals = text.find('=');
     const auto source = std::make_shared<Source>(Source{"--set '" + shortened(text) + "'", directory, false});
@@ -305,7 +326,7 @@ std::string apply_override(const Table& table, SourceNode& root, const std::stri
     if (path != written) report.warn(place, old_name_warning(shortened(written), shortened(path)));
     try {
         SourceNode value = parse_yaml(std::string_view(text).substr(equals + 1), source);
-        Setter setter(std::move(value), report);
+        Setter setter(std::move(value), file, report);
         setter.set(table, root, path_steps(path), 0, "");
         return setter.reached();
     } catch (const YamlError& error) {

@@ -12,6 +12,7 @@
 #include "scenario/demand/plan_arrivals.h"
 #include "scenario/demand/traffic_file.h"
 #include "scenario/driving_checks.h"
+#include "scenario/files/file_kind.h"
 #include "scenario/files/file_name.h"
 #include "scenario/import_sumo.h"
 #include "scenario/kinds/network_kind.h"
@@ -49,10 +50,11 @@ Place place_of_override(const std::string& text, const std::filesystem::path& di
 // Reports an error if one override uses the old and another one the new name of the same field.
 void apply_overrides(SourceNode& root, const std::vector<std::string>& overrides,
                      const std::filesystem::path& directory, Report& report) {
+    const SourceNode file = root;
     std::map<std::string, std::string> written_paths;  // current path -> path in the first override of the field
     std::vector<std::pair<std::string, std::string>> applied;  // path and text of each override so far
     for (const std::string& text : overrides) {
-        const std::string path = apply_override(scenario_table(), root, text, directory, report);
+        const std::string path = apply_override(scenario_table(), root, file, text, directory, report);
         const std::string written = text.substr(0, text.find('='));
         const std::string current = current_path(scenario_table(), written);
         const std::string& first = written_paths.try_emplace(current, written).first->second;
@@ -97,7 +99,7 @@ std::vector<FieldProblem> platoon_problems(const Scenario& scenario) {
     model.graph = kind.graph(scenario.network);
     try {
         kind.add_demand(scenario, model);
-    } catch (const InputError& error) {
+    } catch (const PlatoonsDoNotFit& error) {
         return {{"demand.platoon_headway", error.what()}};
     }
     return {};
@@ -106,6 +108,7 @@ std::vector<FieldProblem> platoon_problems(const Scenario& scenario) {
 Scenario scenario_from(SourceNode root, const std::vector<std::string>& overrides) {
     require_data_directory();
     require_map(root);
+    require_file_kind(root, "scenario");
     const Source source = *root.place.source;
     Report report;
     replace_old_names(scenario_table(), root, "", report);

@@ -52,6 +52,17 @@ TEST(LoadScenario, EveryShippedScenarioLoads) {
     EXPECT_GE(files, 2);
 }
 
+TEST(LoadScenario, FilesOfOtherKindsAreRefusedAsAWhole) {
+    EXPECT_EQ(error_of("scenario: a.yaml\naxes: []\n"),
+              "test.yaml:1:1: is a sweep, not a scenario (it has the field 'axes'); run it with stopline-sweep");
+    EXPECT_TRUE(contains(error_of("intersections: []\n"), "is a streets file, not a scenario"));
+    for (const char* const file : {"scenarios/sweeps/intersection.yaml", "data/berlin/three_lanes.yaml"}) {
+        const std::string message = input_error_of([&] { load_scenario(shipped(file)); });
+        EXPECT_TRUE(contains(message, "not a scenario"));
+        EXPECT_EQ(lines_of(message), 1U);
+    }
+}
+
 TEST(LoadScenario, MissingFieldsHaveTheDefaultsOfTheStructs) {
     const Scenario s = parse_scenario(kSmall, "dir/my file.yaml");
     const Scenario defaults;
@@ -237,6 +248,22 @@ TEST(Overrides, GiveAWarningIfALaterOneReplacesThem) {
     EXPECT_TRUE(warnings_for({"vehicle=diesel_eu4_103kw", "vehicle.mass=1.4 t", "measure.green=[5 s, 6 s]",
                               "measure.green[1]=7 s"})
                     .empty());
+}
+
+TEST(Overrides, NamesSelectPopulationsOfTheFile) {
+    const std::string file =
+        "populations:\n"
+        "- {name: MIX, components: [{policy: CDG, share: 30 %}, {policy: CTG-Ref, share: 70 %}]}\n"
+        "- CTG-Ref\n";
+    const Scenario s = parse_scenario(file, "x", {"populations=[SWITCH-1, MIX]", "measure.baseline=MIX"});
+    ASSERT_EQ(s.populations.size(), 2U);
+    EXPECT_EQ(s.populations[0].components.at(0).policy, "SWITCH-1");
+    ASSERT_EQ(s.populations[1].components.size(), 2U);
+    EXPECT_EQ(s.populations[1].components[0].share, 0.3);
+    // An earlier override of the population has no effect.
+    const Scenario replaced =
+        parse_scenario(file, "x", {"populations[MIX].pattern=random", "populations=[MIX]", "measure.baseline=MIX"});
+    EXPECT_EQ(replaced.populations.at(0).pattern, s.populations[1].pattern);
 }
 
 TEST(Overrides, ReachAllFieldsAndEntries) {

@@ -94,6 +94,11 @@ TEST(LoadSweep, FieldsAreDescribed) {
     }
 }
 
+TEST(LoadSweep, ScenarioIsRefusedAsAWhole) {
+    EXPECT_EQ(sweep_error("network: {kind: grid}\npopulations: [CDG]\n"),
+              "test.yaml:1:1: is a scenario, not a sweep (it has the field 'network'); run it with stopline-run");
+}
+
 TEST(LoadSweep, ShippedSweepsAreRead) {
     for (const auto& entry : std::filesystem::directory_iterator(shipped("scenarios/sweeps"))) {
         EXPECT_EQ(input_error_of([&] { load_sweep(entry.path()); }), "");

@@ -146,6 +146,7 @@ TEST(DemandArrivals, PlatoonsMustFitIntoTheTime) {
     const std::string counts = traffic_error("counts", std::string(kCountsHeader) + "0,60,c0r0_west,9,0,6,3\n",
                                              ", arrivals: platooned, platoon_headway: 50 s");
     EXPECT_TRUE(contains(counts, "field 'demand.platoon_headway': 50 s is too long for the ")) << counts;
+    EXPECT_TRUE(contains(rate, "give at most 3.96 s, or a lower demand.inflow")) << rate;
 }
 
 TEST(DemandArrivals, AreForDemandWithArrivals) {

@@ -1,6 +1,8 @@
 #include "runs/network/network.h"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -173,6 +175,27 @@ std::string delays_csv(const NetworkReport& report) {
             csv.row({f.population, kDelayCauseNames[static_cast<std::size_t>(e.cause)], lane_name(report, e.lane),
                      std::to_string(e.vehicle), id_cell(e.blocker), lane_name(report, e.blocker_lane),
                      fixed(e.from_s, 1), fixed(e.to_s, 1), std::to_string(e.max_vehicles), fixed(e.delay_s, 1)});
+        }
+    }
+    return csv.text();
+}
+
+std::string lane_delays_csv(const NetworkReport& report) {
+    struct Sum {
+        int episodes = 0;
+        double delay_s = 0.0;
+    };
+    CsvWriter csv({"population", "lane", "cause", "episodes", "delay_s"});
+    for (const NetworkResult& f : report.populations) {
+        std::map<std::pair<int, DelayCause>, Sum> sums;  // [lane, cause]
+        for (const DelayEpisode& e : f.delays.episodes) {
+            Sum& sum = sums[{e.lane, e.cause}];
+            ++sum.episodes;
+            sum.delay_s += e.delay_s;
+        }
+        for (const auto& [key, sum] : sums) {
+            csv.row({f.population, lane_name(report, key.first), kDelayCauseNames[static_cast<std::size_t>(key.second)],
+                     std::to_string(sum.episodes), fixed(sum.delay_s, 1)});
         }
     }
     return csv.text();

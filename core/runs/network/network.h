@@ -50,6 +50,7 @@ std::string network_csv(const NetworkReport& report);         // summary.csv
 std::string network_series_csv(const NetworkReport& report);  // series.csv
 std::string origin_destination_csv(const NetworkReport& report);
 std::string delays_csv(const NetworkReport& report);
+std::string lane_delays_csv(const NetworkReport& report);
 std::string gridlocks_csv(const NetworkReport& report);
 std::string rules_csv(const NetworkReport& report);
 std::string street_time_space_csv(const NetworkReport& report);  // time_space.csv

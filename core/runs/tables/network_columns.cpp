@@ -54,6 +54,13 @@ std::vector<TableDoc> result_tables() {
           {"to_s", "s", "run", "last observation"},
           {"max_vehicles", "veh", "run", "largest number of delayed vehicles: the first one and its queue"},
           {"delay_s", "veh s", "run", "sum of the delays of these vehicles"}}},
+        {"network/lane_delays.csv",
+         "The episodes of `network/delays.csv`, added up. One row for each lane and cause.",
+         {kPopulationColumn,
+          {"lane", "", "", "lane of the first delayed vehicles"},
+          {"cause", "", "", "cause of the delay, as in `network/delays.csv`"},
+          {"episodes", "", "run", "number of episodes"},
+          {"delay_s", "veh s", "run", "sum of the delays of all vehicles in these episodes"}}},
         {"network/v2v_modes.csv",
          "Written if `driver.v2v` sets a channel. One row for each change of a vehicle's driving mode because of the age "
          "of\nthe newest message from its leader, or from its platoon leader.",
@@ -67,14 +74,14 @@ std::vector<TableDoc> result_tables() {
           {"net_gap_m", "m", "", "gap to the rear of the leader, from radar"},
           {"speed_mps", "m/s", "", "speed of the vehicle"}}},
         {"network/starvations.csv",
-         "One row for each vehicle that stands at the head of a queue for `measure.starvation` or longer although "
-         "nothing blocks\nits way. Its movement starves.",
+         "One row for each vehicle that is the first of its lane's foremost queue for `measure.starvation` or longer "
+         "although\nnothing blocks its way. Its movement starves.",
          {kPopulationColumn,
           {"lane", "", "", "lane of the vehicle"},
           {"vehicle", "", "", "number of the vehicle"},
           {"cause", "", "",
            "cause of its delay at the last observation: `signal`, `yielding`, `wrong_lane` or `queue_discharge`"},
-          {"from_s", "s", "run", "time at which the vehicle stopped"},
+          {"from_s", "s", "run", "time since which it is the first vehicle and nothing blocks its way"},
           {"to_s", "s", "run", "last observation; vehicles are observed every second"}}},
         {"network/gridlocks.csv",
          "One row for each vehicle of a gridlock. Each vehicle waits for the one in the next row, and the last for "

@@ -215,7 +215,7 @@ private:
         const auto count = static_cast<std::int64_t>(paths.size());
         const double headways_s = static_cast<double>(count) * process_.platoon_headway_s;
         if (headways_s >= row.to_s - row.from_s) {
-            throw InputError(fmt::format(
+            throw PlatoonsDoNotFit(fmt::format(
                 "{:g} s is too long for the {} vehicles that arrive on "
                 "lane '{}' between {:g} s and {:g} s",
                 process_.platoon_headway_s, count, model_.graph.lanes[at(inlet.lane)].name, row.from_s, row.to_s));
@@ -247,9 +247,9 @@ void plan_rate(const Scenario& scenario, Model& model) {
         const auto lanes = static_cast<double>(entries.of(entries.leg_of(k)).size());
         const ArrivalRate rate = profiled_rate(demand, demand.scale * demand.inflow_1ps / lanes, scenario.end_s());
         if (process.kind == ArrivalProcess::Kind::platooned && rate.highest_1ps() * process.platoon_headway_s >= 1.0) {
-            throw InputError(fmt::format("{:g} s is too long for up to {:.0f} veh/h per lane: at most {:.2f} s",
-                                         process.platoon_headway_s, 3600.0 * rate.highest_1ps(),
-                                         0.99 / rate.highest_1ps()));
+            throw PlatoonsDoNotFit(fmt::format(
+                "{:g} s is too long for up to {:.0f} veh/h per lane; give at most {:.2f} s, or a lower demand.inflow",
+                process.platoon_headway_s, 3600.0 * rate.highest_1ps(), 0.99 / rate.highest_1ps()));
         }
         inlet.arrivals_s = arrival_times(process, rate, {scenario.seed, k});
     }

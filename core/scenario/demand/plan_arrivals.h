@@ -1,6 +1,9 @@
 // Plans the arrival times and paths of vehicles before the run.
 #pragma once
 
+#include <string>
+
+#include "base/input_error.h"
 #include "scenario/scenario.h"
 #include "sim/state/model.h"
 
@@ -18,8 +21,13 @@ void add_approaches(LaneGraph& graph);
 std::vector<std::string> entry_legs(const LaneGraph& graph);
 std::vector<std::string> exit_legs(const LaneGraph& graph);
 
+// The headway within platoons leaves too little time for the vehicles of a lane.
+class PlatoonsDoNotFit : public InputError {
+    using InputError::InputError;
+};
+
 // Plans the arrivals of all inlets from the first step until the end of the run. The inlets must exist. Throws
-// InputError if platoons do not fit into the time.
+// PlatoonsDoNotFit if platoons do not fit into the time.
 void plan_arrivals(const Scenario& scenario, Model& model);
 
 }  // namespace stopline

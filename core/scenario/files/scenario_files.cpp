@@ -38,7 +38,9 @@ std::vector<std::filesystem::path> scenario_files(const std::filesystem::path& f
     const std::filesystem::path directory = root.place.source->directory;
     Report report;
     replace_old_names(scenario_table(), root, "", report);
-    for (const std::string& text : overrides) apply_override(scenario_table(), root, text, directory, report);
+    const SourceNode without_overrides = root;
+    for (const std::string& text : overrides)
+        apply_override(scenario_table(), root, without_overrides, text, directory, report);
     complete(scenario_table(), root, "", report);
     files.insert(files.end(), report.files().begin(), report.files().end());
     append_paths(root, "network", {"net", "routes", "additional"}, directory, files);

@@ -7,6 +7,7 @@
 
 #include "base/input_error.h"
 #include "base/nearest_name.h"
+#include "scenario/files/file_kind.h"
 #include "scenario/files/file_name.h"
 #include "scenario/schema/field_path.h"
 #include "scenario/schema/fields.h"
@@ -134,6 +135,7 @@ void check_scenario_file(const SweepSettings& sweep, const std::filesystem::path
 }
 
 SweepSettings sweep_from(SourceNode root) {
+    require_file_kind(root, "sweep");
     const Source source = *root.place.source;
     Report report;
     replace_old_names(sweep_table(), root, "", report);
