@@ -261,7 +261,7 @@ ExitCode run_as_network(const RunCliOptions& options, const Scenario& scenario, 
     }
     fmt::print(
         "\nNext:\n"
-        "  lane_delays.csv adds up the delays of each lane by cause; delays.csv lists each one\n"
+        "  lane_delays.csv: delay of the queues that begin on each lane, by cause; delays.csv: each delay\n"
         "{}"
         "{}"
         "  many variations at once: {} --help\n",
@@ -366,7 +366,6 @@ ExitCode run(const RunCliOptions& options) {
     if (options.file.empty()) {
         throw InputError(runnable("no scenario file given; try: stopline-run scenarios/single_light.yaml (or --help)"));
     }
-    const std::filesystem::file_time_type start = std::filesystem::file_time_type::clock::now();
     const Scenario scenario = load_with_options(options.file, options.common);
     for (const std::string& line : sumo_warnings(scenario)) print_message("SUMO import: {}\n", line);
     for (const std::string& line : sumo_notes(scenario)) print_message("note: {}\n", line);
@@ -388,8 +387,9 @@ ExitCode run(const RunCliOptions& options) {
     run_files.prepare();
     prepare_folder(folder);
     if (options.trajectories && !reporter.streams_trajectories) prepare_output_file(folder / options.trajectories_file);
+    const ResultFiles before = result_files(folder);
     const ExitCode code = reporter.run(options, scenario, interval_s, folder, run_files);
-    print_older_files(folder, start);
+    print_unchanged_files(folder, before);
     return code;
 }
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/input_error.h"
+#include "base/io/console.h"
 #include "common/program.h"
 #include "runs/program_identity.h"
 
@@ -44,23 +45,35 @@ void draw_figures(const std::vector<Figure>& figures, const std::filesystem::pat
     if (first_error) std::rethrow_exception(first_error);
 }
 
-void print_older_files(const std::filesystem::path& folder, std::filesystem::file_time_type start) {
-    std::vector<std::string> names;
-    std::error_code ignored;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-        const std::string name = entry.path().filename().string();
+ResultFiles result_files(const std::filesystem::path& folder) {
+    ResultFiles files;
+    std::error_code error;
+    for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+        const std::string name = entry->path().filename().string();
         const bool is_result = name.ends_with(".csv") || name.ends_with(".svg") || name.ends_with(".png") ||
                                name.ends_with(".provenance.json");
-        if (!is_result || !entry.is_regular_file(ignored)) continue;
-        if (entry.last_write_time(ignored) < start) names.push_back(name);
+        std::error_code unreadable;
+        if (!is_result || !entry->is_regular_file(unreadable)) continue;
+        const std::filesystem::file_time_type time = entry->last_write_time(unreadable);
+        if (!unreadable) files[name] = time;
+    }
+    return files;
+}
+
+void print_unchanged_files(const std::filesystem::path& folder, const ResultFiles& before) {
+    const ResultFiles now = result_files(folder);
+    std::vector<std::string> names;
+    for (const auto& [name, time] : before) {
+        const auto found = now.find(name);
+        if (found != now.end() && found->second == time) names.push_back(name);
     }
     if (names.empty()) return;
-    std::sort(names.begin(), names.end());
     constexpr std::size_t kListed = 8;
     const std::size_t others = names.size() - std::min(names.size(), kListed);
     names.resize(names.size() - others);
-    print_message("note: {} also holds files of earlier runs: {}{}\n", folder.string(), fmt::join(names, ", "),
-                  others > 0 ? fmt::format(" and {} more", others) : "");
+    print_message("note: {} also holds files that this run did not write: {}{}\n", folder.string(),
+                  fmt::join(names, ", "), others > 0 ? fmt::format(" and {} more", others) : "");
 }
 
 }  // namespace stopline

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,11 @@ std::string required_program_identity();
 // after Ctrl-C.
 void draw_figures(const std::vector<Figure>& figures, const std::filesystem::path& folder);
 
-// Prints the names of the tables and figures in `folder` that were written before `start`: earlier runs left them.
-void print_older_files(const std::filesystem::path& folder, std::filesystem::file_time_type start);
+// The tables and figures in a folder, with the times at which they were last written.
+using ResultFiles = std::map<std::string, std::filesystem::file_time_type>;
+ResultFiles result_files(const std::filesystem::path& folder);
+
+// Prints the names of the tables and figures in `folder` that have not changed since `before` was taken.
+void print_unchanged_files(const std::filesystem::path& folder, const ResultFiles& before);
 
 }  // namespace stopline

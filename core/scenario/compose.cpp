@@ -210,7 +210,7 @@ public:
         const bool last = i + 1 == steps.size();
         if (last && step.entries.empty()) {
             replace_old_names(*field, value_, here, report_);
-            if (i == 0) use_entries_of_file(step.name);
+            if (i == 0) use_entries_of_file(table, *field);
             SourceNode* const present = map.find(step.name);
             if (present != nullptr) {
                 *present = std::move(value_);
@@ -237,11 +237,15 @@ public:
     const std::string& reached() const { return reached_; }
 
 private:
-    // Replaces each word in the new list by the entry of this name in the file. Thus --set 'populations=[MIX]' selects a
-    // population that the file describes.
-    void use_entries_of_file(const std::string& field) {
-        const SourceNode* const list = file_.find(field);
-        if (list == nullptr || value_.kind != Kind::list) return;
+    // Replaces a name in the new list by the entry of this name in the file. Thus --set 'populations=[MIX]' selects a
+    // population that the file describes. Does so only in lists whose entries can be a single word.
+    void use_entries_of_file(const Table& table, const Field& field) {
+        const auto* const items = std::get_if<ListField>(&field.kind);
+        if (items == nullptr || items->table().expand == nullptr || value_.kind != Kind::list) return;
+        SourceNode file = file_;
+        complete_field(table, field, file, field.name, report_);
+        const SourceNode* const list = file.find(field.name);
+        if (list == nullptr) return;
         for (SourceNode& item : value_.items) {
             if (item.kind != Kind::scalar) continue;
             if (const SourceNode* const entry = find_entry_by_name(*list, item.text)) item = *entry;

@@ -11,9 +11,8 @@ namespace stopline {
 
 // Applies an override `path=value` (see load_scenario.h) to the map `root`. First completes each section on the path,
 // so that vehicle.mass can be set even if the file gives only the name of a vehicle. Relative file names in the value
-// start at `directory`. `file` is the tree before all overrides: a word in a list at the top level, such as
-// populations=[MIX], stands for the entry of this name in the file. Returns the path to the value, with the numbers of
-// list entries in place of their names.
+// start at `directory`. Returns the path to the value, with the numbers of list entries in place of their names.
+// `file` is the tree before all overrides. A name in populations=[...] stands for the population of this name in it.
 std::string apply_override(const Table& table, SourceNode& root, const SourceNode& file, const std::string& text,
                            const std::filesystem::path& directory, Report& report);
 

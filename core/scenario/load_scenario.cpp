@@ -101,6 +101,8 @@ std::vector<FieldProblem> platoon_problems(const Scenario& scenario) {
         kind.add_demand(scenario, model);
     } catch (const PlatoonsDoNotFit& error) {
         return {{"demand.platoon_headway", error.what()}};
+    } catch (const InputError& error) {
+        return {{"demand", error.what()}};
     }
     return {};
 }

@@ -56,6 +56,8 @@ TEST(LoadScenario, FilesOfOtherKindsAreRefusedAsAWhole) {
     EXPECT_EQ(error_of("scenario: a.yaml\naxes: []\n"),
               "test.yaml:1:1: is a sweep, not a scenario (it has the field 'axes'); run it with stopline-sweep");
     EXPECT_TRUE(contains(error_of("intersections: []\n"), "is a streets file, not a scenario"));
+    const std::string stray_field = error_of("network: {kind: grid}\nintersections: []\n");
+    EXPECT_TRUE(contains(stray_field, "test.yaml:2:1: field 'intersections' is unknown")) << stray_field;
     for (const char* const file : {"scenarios/sweeps/intersection.yaml", "data/berlin/three_lanes.yaml"}) {
         const std::string message = input_error_of([&] { load_scenario(shipped(file)); });
         EXPECT_TRUE(contains(message, "not a scenario"));
@@ -260,6 +262,8 @@ TEST(Overrides, NamesSelectPopulationsOfTheFile) {
     EXPECT_EQ(s.populations[0].components.at(0).policy, "SWITCH-1");
     ASSERT_EQ(s.populations[1].components.size(), 2U);
     EXPECT_EQ(s.populations[1].components[0].share, 0.3);
+    const Scenario by_default = parse_scenario(kSmall, "x", {"populations=[MIX]", "measure.baseline=MIX"});
+    EXPECT_EQ(by_default.populations.at(0).components.size(), 2U) << "MIX of the default list";
     // An earlier override of the population has no effect.
     const Scenario replaced =
         parse_scenario(file, "x", {"populations[MIX].pattern=random", "populations=[MIX]", "measure.baseline=MIX"});

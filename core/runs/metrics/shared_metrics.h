@@ -182,7 +182,7 @@ Metric<Run> starvations_metric() {
     return {.column = "starvations",
             .extent = "run",
             .meaning =
-                "number of vehicles that are the first of a queue for `measure.starvation` or longer, and "
+                "number of vehicles that are stopped as the first of a queue for `measure.starvation` or longer, and "
                 "for two cycles of their signal, although nothing blocks their way; stopline-run fails if "
                 "there are any",
             .value = [](const Run& run) { return run.starvations(); }};

@@ -57,7 +57,7 @@ std::vector<TableDoc> result_tables() {
         {"network/lane_delays.csv",
          "The episodes of `network/delays.csv`, added up. One row for each lane and cause.",
          {kPopulationColumn,
-          {"lane", "", "", "lane of the first delayed vehicles"},
+          {"lane", "", "", "lane of the first vehicle of the queue; the queue can reach back over further lanes"},
           {"cause", "", "", "cause of the delay, as in `network/delays.csv`"},
           {"episodes", "", "run", "number of episodes"},
           {"delay_s", "veh s", "run", "sum of the delays of all vehicles in these episodes"}}},
@@ -74,14 +74,14 @@ std::vector<TableDoc> result_tables() {
           {"net_gap_m", "m", "", "gap to the rear of the leader, from radar"},
           {"speed_mps", "m/s", "", "speed of the vehicle"}}},
         {"network/starvations.csv",
-         "One row for each vehicle that is the first of its lane's foremost queue for `measure.starvation` or longer "
-         "although\nnothing blocks its way. Its movement starves.",
+         "One row for each starving vehicle. It is the first vehicle of the queue nearest to the end of its lane for\n"
+         "`measure.starvation` or longer, and nothing blocks its way.",
          {kPopulationColumn,
           {"lane", "", "", "lane of the vehicle"},
           {"vehicle", "", "", "number of the vehicle"},
           {"cause", "", "",
            "cause of its delay at the last observation: `signal`, `yielding`, `wrong_lane` or `queue_discharge`"},
-          {"from_s", "s", "run", "time since which it is the first vehicle and nothing blocks its way"},
+          {"from_s", "s", "run", "time at which the vehicle stopped"},
           {"to_s", "s", "run", "last observation; vehicles are observed every second"}}},
         {"network/gridlocks.csv",
          "One row for each vehicle of a gridlock. Each vehicle waits for the one in the next row, and the last for "

@@ -249,7 +249,7 @@ void plan_rate(const Scenario& scenario, Model& model) {
         if (process.kind == ArrivalProcess::Kind::platooned && rate.highest_1ps() * process.platoon_headway_s >= 1.0) {
             throw PlatoonsDoNotFit(fmt::format(
                 "{:g} s is too long for up to {:.0f} veh/h per lane; give at most {:.2f} s, or a lower demand.inflow",
-                process.platoon_headway_s, 3600.0 * rate.highest_1ps(), 0.99 / rate.highest_1ps()));
+                process.platoon_headway_s, 3600.0 * rate.highest_1ps(), std::floor(99.0 / rate.highest_1ps()) / 100.0));
         }
         inlet.arrivals_s = arrival_times(process, rate, {scenario.seed, k});
     }

@@ -21,7 +21,7 @@ void add_approaches(LaneGraph& graph);
 std::vector<std::string> entry_legs(const LaneGraph& graph);
 std::vector<std::string> exit_legs(const LaneGraph& graph);
 
-// The headway within platoons leaves too little time for the vehicles of a lane.
+// Thrown if the vehicles of a lane do not fit into the time, because demand.platoon_headway is too long.
 class PlatoonsDoNotFit : public InputError {
     using InputError::InputError;
 };

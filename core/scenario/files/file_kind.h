@@ -1,4 +1,4 @@
-// Recognises a file that was given in place of another one, such as a sweep in place of a scenario.
+// Refuses files of the wrong kind, such as a sweep given to stopline-run.
 #pragma once
 
 #include <string_view>
@@ -7,8 +7,8 @@
 
 namespace stopline {
 
-// Throws InputError if the file `root` is of another kind than `expected`: "scenario" or "sweep". The message says what
-// the file is and how to use it.
+// Throws InputError if the file `root` is of another kind than `expected`, "scenario" or "sweep". The message says what
+// the file is and how to use it. A file that has the characteristic field of the expected kind is not refused.
 void require_file_kind(const SourceNode& root, std::string_view expected);
 
 }  // namespace stopline

@@ -106,12 +106,12 @@ if [ -e /dev/full ]; then
     done
 fi
 
-# A folder that holds files of an earlier run
+# A folder that holds a file of another run
 "$run" "$scenario" --no-figures --output "$work/twice" >"$work/stdout" 2>"$work/stderr" || fail "exit code $?"
-grep -q "earlier runs" "$work/stderr" && fail "a new folder: $(cat "$work/stderr")"
-touch -d "2001-01-01" "$work/twice/series.csv"
+grep -q "did not write" "$work/stderr" && fail "a new folder: $(cat "$work/stderr")"
+touch "$work/twice/series.csv"
 "$run" "$scenario" --no-figures --output "$work/twice" >"$work/stdout" 2>"$work/stderr" || fail "exit code $?"
-[ "$(cat "$work/stderr")" = "note: $work/twice also holds files of earlier runs: series.csv" ] ||
+[ "$(cat "$work/stderr")" = "note: $work/twice also holds files that this run did not write: series.csv" ] ||
     fail "a folder with an older file: $(cat "$work/stderr")"
 
 # A file size limit stands in for a disk that becomes full during the run. 8 blocks of 1024 bytes are less than the
