@@ -65,8 +65,8 @@ if [[ $all == no ]]; then
     exit 0
 fi
 
-step "Debug: building the programs"
-build debug OFF stopline_programs
+step "Debug: building stopline-run"
+build debug OFF stopline-run
 
 step "Release: all tests and checks of the sources"
 STOPLINE_DEBUG_BIN="$PWD/build/debug/bin" ctest --preset release -j "$jobs" --no-tests=error

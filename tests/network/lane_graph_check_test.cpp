@@ -1,6 +1,7 @@
 // Tests of check(): it refuses every lane graph that the engine cannot run, and names the faulty lane or route.
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <functional>
 #include <limits>
 #include <string>
@@ -18,6 +19,13 @@ struct Damage {
     std::function<void(LaneGraph&)> apply;
     const char* expected_text;  // expected part of the error message
 };
+
+// Returns the name of the damage as a valid test name.
+std::string name_of(const testing::TestParamInfo<Damage>& info) {
+    std::string name = info.param.name;
+    for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+    return name;
+}
 
 const Damage kDamages[] = {
     {"zero length", [](LaneGraph& g) { g.lanes[1].length_m = 0.0; }, "exit_0"},
@@ -52,7 +60,7 @@ const Damage kDamages[] = {
 };
 
 class BrokenGraph : public testing::TestWithParam<Damage> {};
-INSTANTIATE_TEST_SUITE_P(Check, BrokenGraph, testing::ValuesIn(kDamages));
+INSTANTIATE_TEST_SUITE_P(Check, BrokenGraph, testing::ValuesIn(kDamages), name_of);
 
 TEST_P(BrokenGraph, IsRefusedAndNamed) {
     ApproachSettings settings;
@@ -87,7 +95,7 @@ const Damage kNeighbourDamages[] = {
 };
 
 class BrokenApproach : public testing::TestWithParam<Damage> {};
-INSTANTIATE_TEST_SUITE_P(Check, BrokenApproach, testing::ValuesIn(kNeighbourDamages));
+INSTANTIATE_TEST_SUITE_P(Check, BrokenApproach, testing::ValuesIn(kNeighbourDamages), name_of);
 
 TEST_P(BrokenApproach, IsRefusedAndNamed) {
     LaneGraph graph = make_streets(streets_with_pockets());

@@ -22,6 +22,7 @@ MARGIN_M = 20
 # Makes our drivers behave like SUMO's: no hesitation at the start of green, and SUMO's deceleration at stop lines.
 LIKE_SUMO = ["driver.free_drive.hesitation=0 s", "driver.stop.deceleration=4.7 m/s2",
              "driver.stop.decision_deceleration=5.3 m/s2"]
+TELEPORT_S = 300  # SUMO teleports a vehicle that has waited for this time (--time-to-teleport)
 EXPORT_S = 300  # length of the run of stopline-export; longer than a signal cycle
 KEY_S = 60      # sumo_key() hashes the demand of the first 60 s only; this part identifies the whole demand
 VIOLATIONS = ["overlaps", "conflicts", "red_entries", "lost_vehicles"]
@@ -84,7 +85,8 @@ def read_inserted(file):
 def run_ours(options, policy, seed, cycle_s, folder):
     """Runs stopline-run. Returns its Run. Leaves its tables in the folder."""
     command = [options.bin / "stopline-run", options.scenario, "--no-figures", "--seed", str(seed), "--threads", "1",
-               "--output", folder, "--e1", folder / "loops.xml", "--e1-interval", f"{cycle_s} s"]
+               "--output", folder, "--e1", folder / "loops.xml", "--e1-interval", f"{cycle_s} s",
+               "--set", f"rules.teleport_cycles={TELEPORT_S / cycle_s}"]
     ended = subprocess.run([str(word) for word in command + settings_of(options, policy, options.duration)],
                            capture_output=True, text=True, check=False)
     if ended.returncode not in (0, 1):  # 1: violations, which the tables count
