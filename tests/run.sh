@@ -7,8 +7,8 @@
 #                          with an unoptimised one
 # Three environment variables hold regular expressions for ctest and limit what runs under the sanitizers:
 # STOPLINE_ASAN_LABELS (default: unit|threads|cli), STOPLINE_TSAN_LABELS (default: threads) and
-# STOPLINE_SANITIZER_EXCLUDE (default: names that begin with Slow). Scripts with the label slow never run under a
-# sanitizer.
+# STOPLINE_SANITIZER_EXCLUDE (default: names that begin with Slow, and tests of statistics, which repeat the same code
+# for long). Scripts with the label slow never run under a sanitizer.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -32,6 +32,7 @@ trap 'echo "tests/run.sh: stopped at: $current_step" >&2' ERR
 
 jobs="$(nproc)"
 slow_names='(^|[./])Slow[A-Z]'  # slow suites and cases of GoogleTest
+statistics='^demand\.(PermissiveLeft|WebsterDelay)\.'
 
 # build PRESET TESTS TARGET...: TESTS is ON or OFF and says whether the tests are configured too
 build() {
@@ -46,7 +47,7 @@ run_fast_tests() {
     local preset="$1" labels="$2"
     shift 2
     "$@" ctest --preset "$preset" -j "$jobs" --label-regex "$labels" \
-        --label-exclude slow --exclude-regex "${STOPLINE_SANITIZER_EXCLUDE:-$slow_names}" --no-tests=error
+        --label-exclude slow --exclude-regex "${STOPLINE_SANITIZER_EXCLUDE:-$slow_names|$statistics}" --no-tests=error
 }
 
 step "Packages: installing what is missing"
@@ -82,7 +83,7 @@ step "Fuzz targets: some seconds each"
 bash tests/fuzz/campaign.sh --short build/asan-ubsan
 
 step "Thread sanitizer: building"
-build tsan ON stopline_programs stopline_threaded_tests
+build tsan ON stopline_threaded_tests
 step "Thread sanitizer: fast tests"
 # Archer is the plug-in through which clang's OpenMP runtime informs the thread sanitizer. The runtime itself was not
 # built with the sanitizer, so ignore_noninstrumented_modules leaves it out.
