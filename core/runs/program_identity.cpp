@@ -15,11 +15,14 @@ std::uint64_t hash_of(std::string_view bytes) {
 }
 
 std::optional<std::string> program_identity() {
-    try {
-        return fmt::format("stopline {}, program {:016x}", version(), hash_of(read_file("/proc/self/exe")));
-    } catch (const InputError&) {
-        return std::nullopt;
-    }
+    static const std::optional<std::string> identity = []() -> std::optional<std::string> {
+        try {
+            return fmt::format("stopline {}, program {:016x}", version(), hash_of(read_file("/proc/self/exe")));
+        } catch (const InputError&) {
+            return std::nullopt;
+        }
+    }();
+    return identity;
 }
 
 }  // namespace stopline

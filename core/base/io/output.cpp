@@ -4,8 +4,9 @@
 
 #include <cerrno>
 #include <fstream>
-#include <iterator>
+#include <sstream>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -61,7 +62,9 @@ std::string read_file(const fs::path& file) {
         throw InputError(fmt::format("{}: cannot read: {}", file.string(),
                                      std::generic_category().message(fs::is_directory(file) ? EISDIR : errno)));
     }
-    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return std::move(text).str();
 }
 
 }  // namespace stopline
