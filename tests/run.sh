@@ -7,8 +7,8 @@
 #                          with an unoptimised one
 # Three environment variables hold regular expressions for ctest and limit what runs under the sanitizers:
 # STOPLINE_ASAN_LABELS (default: unit|threads|cli), STOPLINE_TSAN_LABELS (default: threads) and
-# STOPLINE_SANITIZER_EXCLUDE (default: names that begin with Slow, and tests of statistics, which repeat the same code
-# for long). Scripts with the label slow never run under a sanitizer.
+# STOPLINE_SANITIZER_EXCLUDE (default: names that begin with Slow, and two suites of statistics, which repeat the same
+# code many times). Scripts with the label slow never run under a sanitizer.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

@@ -375,8 +375,8 @@ TEST(DualRing, KeepsAnnouncedGreensInRandomHistories) {
     EXPECT_GT(announced_rests, 10'000);
 }
 
-// Returns the number of histories for each seed. The environment variable STOPLINE_HISTORIES sets another number:
-// 100000 gives a million histories in ten tests of half a minute each.
+// Returns the number of histories for each seed: the environment variable STOPLINE_HISTORIES, at least 1,000, or 20,000
+// if it is not set. With 100000, ten tests check a million histories in half a minute each.
 int histories_of_a_seed() {
     const char* number = std::getenv("STOPLINE_HISTORIES");
     return number == nullptr ? 20'000 : std::max(1'000, std::atoi(number));

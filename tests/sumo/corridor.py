@@ -65,7 +65,7 @@ def add_run_options(parser):
     parser.add_argument("--warm-up", type=float, default=480, help="start of the measured window, s (default: 480)")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="setting of our scenario")
     parser.add_argument("--own-driver", action="store_true", help="keep the driver of the scenario. By default our "
-                        "drivers start, stop and yield as SUMO's (no hesitation, deceleration 4.7 m/s2, critical gap "
+                        "drivers start, stop and yield like SUMO's (no hesitation, deceleration 4.7 m/s2, critical gap "
                         "8.75 s)")
     parser.add_argument("--sumo-option", action="append", default=[], metavar="OPTION", help="option of SUMO, such as "
                         "--sumo-option=--lanechange.duration=3")

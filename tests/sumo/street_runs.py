@@ -22,8 +22,8 @@ MARGIN_M = 20
 # Makes our drivers behave like SUMO's: no hesitation at the start of green, and SUMO's deceleration at stop lines.
 LIKE_SUMO = ["driver.free_drive.hesitation=0 s", "driver.stop.deceleration=4.7 m/s2",
              "driver.stop.decision_deceleration=5.3 m/s2"]
-# With this critical gap as many left turners pass as in SUMO. It was measured at one intersection (left_turns.py), not
-# in streets.
+# With this critical gap about as many left turners pass as in SUMO. It was measured at one intersection
+# (left_turns.py), not in streets.
 YIELD_LIKE_SUMO = ["driver.give_way.critical_gap=8.75 s"]
 EXPORT_S = 300  # length of the run of stopline-export; longer than a signal cycle
 KEY_S = 60      # sumo_key() hashes the demand of the first 60 s only; this part identifies the whole demand
@@ -40,23 +40,25 @@ class Run:
 
 
 def key_of(setting):
+    """Returns the key of KEY=VALUE."""
     return setting.split("=", 1)[0]
 
 
 def settings_of(options, policy, duration_s):
-    """Returns the settings of the scenario as arguments. Those of the user (options.set) replace those of this file."""
+    """Returns the settings of the scenario as arguments. The user's settings (options.set) may replace those that make
+    our drivers behave like SUMO's."""
     population = POPULATIONS[policy]
     own = ["fidelity=meso", "meso=table2", f"populations=[{population}]", f"measure.baseline={population}",
            "demand.kind=saturated", "demand.start=empty", f"duration={duration_s} s",
            f"measure.area_margin={MARGIN_M} m", "measure.window=1 s"]
     if not options.own_driver:
-        own += LIKE_SUMO + YIELD_LIKE_SUMO
+        chosen = {key_of(setting) for setting in options.set}
+        own += [setting for setting in LIKE_SUMO + YIELD_LIKE_SUMO if key_of(setting) not in chosen]
     if options.layout:
         path = Path(options.layout)
         own.append(f"network.streets={path.resolve() if path.is_file() else options.layout}")
-    chosen = {key_of(setting) for setting in options.set}
     arguments = []
-    for setting in [one for one in own if key_of(one) not in chosen] + options.set:
+    for setting in own + options.set:
         arguments += ["--set", setting]
     return arguments
 

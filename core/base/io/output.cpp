@@ -2,11 +2,11 @@
 
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
+#include <cstddef>
 #include <fstream>
-#include <sstream>
 #include <system_error>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -62,9 +62,16 @@ std::string read_file(const fs::path& file) {
         throw InputError(fmt::format("{}: cannot read: {}", file.string(),
                                      std::generic_category().message(fs::is_directory(file) ? EISDIR : errno)));
     }
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return std::move(text).str();
+    std::string text;
+    std::array<char, 65536> part;
+    do {
+        stream.read(part.data(), part.size());
+        text.append(part.data(), static_cast<std::size_t>(stream.gcount()));
+    } while (stream);
+    if (stream.bad()) {
+        throw InputError(fmt::format("{}: cannot read: {}", file.string(), std::generic_category().message(errno)));
+    }
+    return text;
 }
 
 }  // namespace stopline
