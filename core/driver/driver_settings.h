@@ -75,6 +75,10 @@ struct GiveWaySettings {
     // near the mean of 45 approaches with permissive left turns, 4.87 s (Claros, Chitturi, Bill, Noyce 2021, "Impact of
     // geometry and operations on left-turn gap acceptance at signalized intersections with permissive indication").
     double critical_gap_s = 5.0;
+    // Critical lag: shortest accepted time from the arrival of a moving vehicle at its waiting position until the next
+    // vehicle with priority reaches the conflict area. 0: the critical gap, minus the time that a moving vehicle saves
+    // in comparison with a start from rest.
+    double critical_lag_s = 0.0;
     double margin_m = 0.5;  // distance from a waiting vehicle's front to the conflict area
     // A yielding driver assumes that approaching vehicles with priority accelerate this much, up to the speed limit.
     double approach_acceleration_mps2 = 2.0;

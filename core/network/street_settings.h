@@ -68,6 +68,9 @@ struct StreetSettings {
     double lane_width_m = 3.5;
     double turn_speed_mps = 7.0;
     double clearance_m = 2.0;  // vehicles can touch where the centre lines of their lanes are closer than this
+    // Smallest distance between the paths, at the rear of the vehicle ahead, at which a vehicle passes a vehicle from
+    // its own lane with another movement, such as a waiting left turner. 0: clearance_m.
+    double passing_clearance_m = 0.0;
     std::vector<StreetIntersection> intersections = {};
 
     double longest_green_s() const {

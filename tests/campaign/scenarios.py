@@ -318,6 +318,7 @@ class ScenarioDraw:
                      "deceleration": lambda: f"{self.number(1.5, 3.5, 1)} m/s2",
                      "decision_deceleration": lambda: f"{self.number(2.5, 7, 1)} m/s2"},
             "give_way": {"critical_gap": lambda: f"{self.edge((2, 8, 1), [0, 20])} s",
+                         "critical_lag": lambda: f"{self.edge((2, 8, 1), [0, 20])} s",
                          "margin": lambda: f"{self.edge((0.2, 2, 1), [0])} m",
                          "approach_acceleration": lambda: f"{self.number(0.5, 4, 1)} m/s2"},
             "lane_change": change,

@@ -77,6 +77,38 @@ TEST(Streets, ConnectionsBeginWhereTheMovementsDiverge) {
     }
 }
 
+// With a passing clearance, the shared stretch is longer. It ends 1 m before the end of the shortest path at the
+// latest.
+TEST(Streets, ConnectionsBeginAtThePassingClearance) {
+    for (const double radius_m : {20.0, 14.5}) {
+        StreetSettings streets = two_streets();
+        for (StreetIntersection& node : streets.intersections) node.radius_m = radius_m;
+        streets.intersections[1].legs[0].exits = 3;
+        const LaneGraph shorter = make_streets(streets);
+        streets.passing_clearance_m = 3.5;
+        const LaneGraph graph = make_streets(streets);
+        check(graph);
+        int checked = 0;
+        for (const Lane& this_lane : graph.lanes) {
+            if (this_lane.origin < 0) continue;
+            const std::vector<int>& siblings = graph.lanes[at(this_lane.origin)].next;
+            if (siblings.size() < 2) continue;
+            EXPECT_GE(this_lane.shape_start_m, lane(shorter, this_lane.name).shape_start_m) << this_lane.name;
+            EXPECT_GE(this_lane.length_m, 0.99) << this_lane.name;
+            const bool is_cut = std::any_of(siblings.begin(), siblings.end(),
+                                            [&](int other) { return graph.lanes[at(other)].length_m < 1.01; });
+            for (const int other : siblings) {
+                const Lane& beside = graph.lanes[at(other)];
+                if (is_cut || beside.name == this_lane.name) continue;
+                EXPECT_GE(distance_m(beside.shape, pose_at(this_lane.shape, this_lane.shape_start_m).point), 3.49)
+                    << this_lane.name;
+                ++checked;
+            }
+        }
+        EXPECT_GE(checked, 8) << radius_m;
+    }
+}
+
 // Turns are quarters of circles or ellipses. Each end of a turn lies on the centre line of a lane. The distance of this
 // line from the axis of the street is half the median width, the widths of the lanes in between, and half a lane width.
 TEST(Streets, TurnsLeadToTheNearestExitLane) {

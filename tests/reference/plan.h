@@ -74,6 +74,7 @@ struct Plan {
     double stop_mps2 = 2.5;      // deceleration before a stop
     double decision_mps2 = 3.5;  // a vehicle stops at yellow if this deceleration suffices
     double critical_gap_s = 5.0;
+    double critical_lag_s = 0.0;       // 0: follows from critical_gap_s
     double gap_share_percent = 100.0;  // of lane changes
     double politeness = 0.0;           // of lane changes
     double keep_right_mps2 = 0.0;
@@ -165,12 +166,12 @@ inline std::string yaml_of(const Plan& p) {
         "vehicle: {}\ndriver:\n  base: startup_kit\n  cacc: {{radar_delay: {} ms, v2v_delay: {} ms}}\n"
         "  free_drive: {{hesitation: {} s}}\n"
         "  stop: {{margin: {} m, deceleration: {} m/s2, decision_deceleration: {} m/s2}}\n"
-        "  give_way: {{critical_gap: {} s}}\n"
+        "  give_way: {{critical_gap: {} s, critical_lag: {} s}}\n"
         "  lane_change: {{gap_share: {} %, politeness: {}, keep_right: {} m/s2, gap_opening: {}}}\n"
         "  human: {{reaction: {} s, gap_error: {}}}\n",
         p.vehicle, p.radar_delay_ms, p.v2v_delay_ms, p.hesitation_s, p.stop_margin_m, p.stop_mps2, p.decision_mps2,
-        p.critical_gap_s, p.gap_share_percent, p.politeness, p.keep_right_mps2, p.gap_opening, p.reaction_s,
-        p.gap_error);
+        p.critical_gap_s, p.critical_lag_s, p.gap_share_percent, p.politeness, p.keep_right_mps2, p.gap_opening,
+        p.reaction_s, p.gap_error);
     if (p.max_platoon > 0) text += fmt::format("  platoon: {{max_vehicles: {}}}\n", p.max_platoon);
     std::string policies;
     for (const Plan::Component& component : p.components) {

@@ -103,7 +103,7 @@ public:
         p.exit_limit_kmh = chance(25) ? 3.0 : 0.0;
         p.keeps_clear = chance(60);
         if (chance(60)) p.green_s = number(25, 100) / 5.0;
-        if (chance(30)) p.critical_gap_s = number(4, 16) / 2.0;
+        if (chance(30)) draw_critical_gap(p);
         p.duration_s = is_mesoscale ? number(40, 110) : number(25, 45);
         fit_duration(p);
         return p;
@@ -212,7 +212,7 @@ public:
         p.gradient_percent = 0.0;
         p.starts_queued = false;
         p.keeps_clear = chance(50);
-        if (chance(30)) p.critical_gap_s = number(4, 16) / 2.0;
+        if (chance(30)) draw_critical_gap(p);
         p.duration_s = is_mesoscale ? number(50, 110) : number(30, 50);
         const int count = is_mesoscale ? number(4, 40) : number(3, 14);
         std::vector<double> departures_s;
@@ -235,6 +235,14 @@ private:
 
     // Returns the sum of three times that are multiples of 0.1 s. Removes the rounding errors of the addition.
     static double sum(double a_s, double b_s, double c_s) { return std::round(10.0 * (a_s + b_s + c_s)) / 10.0; }
+
+    // Draws a critical gap in steps of 0.5 s. With an odd number of half seconds, also sets a critical lag of 75 % of
+    // it.
+    void draw_critical_gap(Plan& p) {
+        const int half_seconds = number(4, 16);
+        p.critical_gap_s = half_seconds / 2.0;
+        if (half_seconds % 2 == 1) p.critical_lag_s = 0.75 * p.critical_gap_s;
+    }
 
     // The run of an intersection must include a whole cycle.
     static void fit_duration(Plan& p) {
@@ -353,15 +361,20 @@ private:
             number(6, 16), clearance_s, protected_left_s);
     }
 
+    // Returns the YAML of a median of 4 m. If the length in metres is even, adds a passing clearance of 3.5 m.
+    static std::string median(int length_m) {
+        return std::string("    median: 4 m\n") + (length_m % 2 == 0 ? "    passing_clearance: 3.5 m\n" : "");
+    }
+
     std::string one_street(int length_m) {
         const std::string times = programme();
-        return "    median: 4 m\n    intersections:\n    - name: a\n" + times + "      legs:\n" + legs(length_m);
+        return median(length_m) + "    intersections:\n    - name: a\n" + times + "      legs:\n" + legs(length_m);
     }
     std::string two_streets(int length_m, int distance_m) {
         const std::string times = programme();
         const std::string legs_of_a = legs(length_m);
         const int offset_s = number(0, 20);
-        return "    median: 4 m\n    intersections:\n    - name: a\n" + times + "      legs:\n" + legs_of_a +
+        return median(length_m) + "    intersections:\n    - name: a\n" + times + "      legs:\n" + legs_of_a +
                fmt::format("    - name: b\n      x: {} m\n      offset: {} s\n", distance_m, offset_s) + times +
                "      legs:\n" + legs(length_m);
     }

@@ -310,7 +310,7 @@ TEST(UndocumentedRule, ThePowerBoundNeedsAPolicyWithAPowerLimit) {
 }
 
 TEST(UndocumentedRule, ALostLeaderStaysOnTheRadar) {
-    PlanDraw random(78);
+    PlanDraw random(80);
     const Plan plan = random.lane_changes(true);
     UndocumentedRules rules;
     rules.lost_leader_stays_on_radar = false;

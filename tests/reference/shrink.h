@@ -64,8 +64,8 @@ inline std::vector<Change> simplifications(const Failure& failure) {
     for (double Plan::*const field :
          {&Plan::gradient_percent, &Plan::exit_limit_kmh, &Plan::left_percent, &Plan::right_percent,
           &Plan::hesitation_s, &Plan::stop_margin_m, &Plan::stop_mps2, &Plan::decision_mps2, &Plan::critical_gap_s,
-          &Plan::radar_delay_ms, &Plan::v2v_delay_ms, &Plan::gap_share_percent, &Plan::politeness,
-          &Plan::keep_right_mps2, &Plan::reaction_s, &Plan::gap_error}) {
+          &Plan::critical_lag_s, &Plan::radar_delay_ms, &Plan::v2v_delay_ms, &Plan::gap_share_percent,
+          &Plan::politeness, &Plan::keep_right_mps2, &Plan::reaction_s, &Plan::gap_error}) {
         changes.push_back(reset(field));
     }
     changes.push_back(reset(&Plan::max_platoon));

@@ -22,9 +22,11 @@ MARGIN_M = 20
 # Makes our drivers behave like SUMO's: no hesitation at the start of green, and SUMO's deceleration at stop lines.
 LIKE_SUMO = ["driver.free_drive.hesitation=0 s", "driver.stop.deceleration=4.7 m/s2",
              "driver.stop.decision_deceleration=5.3 m/s2"]
-# With this critical gap about as many left turners pass as in SUMO. It was measured at one intersection
-# (left_turns.py), not in streets.
-YIELD_LIKE_SUMO = ["driver.give_way.critical_gap=8.75 s"]
+# With these values, critical_gaps.py measures nearly the same gaps and lags in both programs at one intersection.
+YIELD_LIKE_SUMO = ["driver.give_way.critical_gap=11.8 s", "driver.give_way.critical_lag=8.3 s"]
+# SUMO's vehicles wait behind a left turner from their own lane until the paths are a lane width apart. Lanes are 3.5 m
+# wide by default.
+PASS_LIKE_SUMO = ["network.streets.passing_clearance=3.5 m"]
 EXPORT_S = 300  # length of the run of stopline-export; longer than a signal cycle
 KEY_S = 60      # sumo_key() hashes the demand of the first 60 s only; this part identifies the whole demand
 VIOLATIONS = ["overlaps", "conflicts", "red_entries", "lost_vehicles"]
@@ -44,19 +46,26 @@ def key_of(setting):
     return setting.split("=", 1)[0]
 
 
+def yield_settings(chosen):
+    """Returns the settings with which our drivers yield like SUMO's; none if the user has chosen one of them."""
+    return YIELD_LIKE_SUMO if {key_of(setting) for setting in chosen}.isdisjoint(map(key_of, YIELD_LIKE_SUMO)) else []
+
+
 def settings_of(options, policy, duration_s):
     """Returns the settings of the scenario as arguments. The user's settings (options.set) may replace those that make
-    our drivers behave like SUMO's."""
+    our drivers behave like SUMO's. If the user sets the critical gap or the critical lag, neither of
+    SUMO's values is used."""
     population = POPULATIONS[policy]
     own = ["fidelity=meso", "meso=table2", f"populations=[{population}]", f"measure.baseline={population}",
            "demand.kind=saturated", "demand.start=empty", f"duration={duration_s} s",
            f"measure.area_margin={MARGIN_M} m", "measure.window=1 s"]
-    if not options.own_driver:
-        chosen = {key_of(setting) for setting in options.set}
-        own += [setting for setting in LIKE_SUMO + YIELD_LIKE_SUMO if key_of(setting) not in chosen]
     if options.layout:
         path = Path(options.layout)
         own.append(f"network.streets={path.resolve() if path.is_file() else options.layout}")
+    if not options.own_driver:
+        chosen = {key_of(setting) for setting in options.set}
+        own += [setting for setting in LIKE_SUMO + PASS_LIKE_SUMO if key_of(setting) not in chosen]
+        own += yield_settings(options.set)
     arguments = []
     for setting in own + options.set:
         arguments += ["--set", setting]

@@ -27,6 +27,12 @@ public:
     std::vector<StreetProblem> run() {
         const std::string clearance_message = clearance_problem(s_.clearance_m, s_.lane_width_m);
         if (!clearance_message.empty()) add_problem("clearance", clearance_message);
+        const double passing_m = s_.passing_clearance_m;
+        if (passing_m > 0.0 && (passing_m < s_.clearance_m || passing_m > s_.lane_width_m + kTolerance)) {
+            add_problem("passing_clearance",
+                        fmt::format("value {:g} m must lie between clearance, {:g} m, and lane_width, {:g} m",
+                                    passing_m, s_.clearance_m, s_.lane_width_m));
+        }
         std::unordered_set<std::string> names;
         for (int n = 0; n < layout_.nodes(); ++n) {
             check_name_and_sides(n, names);

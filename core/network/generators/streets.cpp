@@ -30,8 +30,8 @@ struct Builder {
         return static_cast<int>(graph.lanes.size()) - 1;
     }
 
-    // Returns the distance from the stop line at which all movements of the lane have diverged.
-    double shared_m(int node, int side, int lane) const {
+    // Returns the distance from the stop line at which the paths of all movements of the lane are `clearance_m` apart.
+    double shared_m(int node, int side, int lane, double clearance_m) const {
         double longest_m = 0.0;
         const StreetLane& settings = layout.leg(node, side)->lanes[at(lane)];
         for (const Turn one : kTurns) {
@@ -40,10 +40,24 @@ struct Builder {
                 const Polyline a = layout.path(node, side, lane, one);
                 const Polyline b = layout.path(node, side, lane, two);
                 longest_m =
-                    std::max({longest_m, shared_stretch_m(a, b, s.clearance_m), shared_stretch_m(b, a, s.clearance_m)});
+                    std::max({longest_m, shared_stretch_m(a, b, clearance_m), shared_stretch_m(b, a, clearance_m)});
             }
         }
         return longest_m;
+    }
+
+    // Returns the distance from the stop line at which the lane ends and its connections begin. A vehicle passes a
+    // vehicle with another movement only beyond this point.
+    double shared_m(int node, int side, int lane) const {
+        constexpr double kMinConnection_m = 1.0;
+        const double touching_m = shared_m(node, side, lane, s.clearance_m);
+        if (s.passing_clearance_m <= s.clearance_m || touching_m == 0.0) return touching_m;
+        double most_m = shared_m(node, side, lane, s.passing_clearance_m);
+        for (const Turn turn : kTurns) {
+            if (allows(layout.leg(node, side)->lanes[at(lane)], turn))
+                most_m = std::min(most_m, length_m(layout.path(node, side, lane, turn)) - kMinConnection_m);
+        }
+        return std::max(touching_m, most_m);
     }
 
     int group_of(int node, int side, int lane) const {

@@ -108,6 +108,10 @@ const Table& streets_table() {
             number<&S::clearance_m>(
                 "clearance", "m", {1, 5},
                 "two vehicles touch if their centre lines are nearer than this; at most lane_width - 0.5 m"),
+            number<&S::passing_clearance_m>(
+                "passing_clearance", "m", {0, 6},
+                "smallest distance between the paths at which a vehicle passes a vehicle from its own lane with "
+                "another movement, such as a waiting left turner; from clearance to lane_width; 0 m: clearance"),
             list<&S::intersections>("intersections", node_table, {1, 1000}, "intersections").required(),
         },
         [](const S& streets, Checker& check) {

@@ -69,7 +69,8 @@ double emergency_stop_gap_s(const Model& model, const State& state, const Confli
 // As in the Highway Capacity Manual, the gap begins when the previous vehicle with priority has reached the area. If
 // this vehicle has left the area, the gap begins now. The critical gap holds for a vehicle that starts from rest at
 // `wait_m`. A candidate that needs more time than this vehicle to pass the area needs a longer gap, by the difference.
-// A faster candidate needs a shorter gap.
+// A faster candidate needs a shorter gap. If the driver has a critical lag, this lag replaces the critical gap while
+// the candidate moves.
 double needed_time_s(const Model& model, const State& state, int lane, const Conflict& conflict, const Candidate& v,
                      double wait_m, bool has_begun) {
     const VehicleArrays& arrays = state.vehicles;
@@ -78,16 +79,18 @@ double needed_time_s(const Model& model, const State& state, int lane, const Con
     const double passing_s = passing_time_s(model, state, lane, conflict, v, v.front_m, speed_mps);
     const bool is_imported = !model.demand.trips.empty();  // only imported networks have trips
     if (has_begun && is_imported) return passing_s;
+    const double to_wait_s = travel_time_s(driver, wait_m - v.front_m, speed_mps, state.plan.lane(lane).limit_mps);
     const double from_rest_s = passing_time_s(model, state, lane, conflict, v, wait_m, 0.0);
     const double gap_s =
-        driver.give_way.critical_gap_s - time_since_last_arrival_s(state, conflict) + passing_s - from_rest_s;
+        driver.give_way.critical_lag_s > 0.0 && !v.stopped
+            ? to_wait_s + driver.give_way.critical_lag_s
+            : driver.give_way.critical_gap_s - time_since_last_arrival_s(state, conflict) + passing_s - from_rest_s;
     // With this gap, the candidate does not hinder the next vehicle with priority.
     const double unhindered_s = has_begun ? passing_s : std::max(gap_s, passing_s);
     if (is_imported) return unhindered_s;
     // In other networks, a candidate that has reached its waiting position may make the next vehicle with priority
     // brake. When the candidate reaches this position, that vehicle must have the time for an emergency stop.
-    const double stop_s = emergency_stop_gap_s(model, state, conflict) +
-                          travel_time_s(driver, wait_m - v.front_m, speed_mps, state.plan.lane(lane).limit_mps);
+    const double stop_s = emergency_stop_gap_s(model, state, conflict) + to_wait_s;
     const bool is_at_wait = v.front_m >= wait_m - kWaitingTolerance_m;
     return std::max(is_at_wait ? std::min(gap_s, unhindered_s) : unhindered_s, stop_s);
 }

@@ -123,7 +123,8 @@ private:
 
     // Returns the earliest arrival of the next vehicle with priority at which the candidate accepts the gap. The
     // critical gap begins when a vehicle with priority reaches the area, or now if the area is free. It holds for a
-    // start from rest. The candidate does not hinder the next vehicle. Exception: at its waiting position in a
+    // start from rest. While the candidate moves, a critical lag above 0 replaces the critical gap. The candidate does
+    // not hinder the next vehicle. Exception: at its waiting position in a
     // generated network it only leaves that vehicle the time for an emergency stop. `has_begun`: the candidate moves
     // and has accepted the gap before.
     double needed_s(const Candidate& c, const Conflict& conflict, double wait_m, bool has_begun) const {
@@ -131,12 +132,13 @@ private:
         const DriverSettings& driver = w_.driver(*c.vehicle);
         const double speed_mps = c.vehicle->speed_mps;
         const double now_s = passing_s(c, conflict, c.front_m, speed_mps);
+        const double to_wait_s = travel_s(driver, wait_m - c.front_m, speed_mps, w_.lane(c.connection).limit_mps);
         const double later_s = now_s - passing_s(c, conflict, wait_m, 0.0);
-        const double gap_s = driver.give_way.critical_gap_s - since_last_arrival_s(conflict) + later_s;
+        double gap_s = driver.give_way.critical_gap_s - since_last_arrival_s(conflict) + later_s;
+        if (driver.give_way.critical_lag_s > 0.0 && !c.is_stopped()) gap_s = driver.give_way.critical_lag_s + to_wait_s;
         const double free_s = has_begun ? now_s : std::max(gap_s, now_s);
         if (w_.is_imported) return free_s;
-        const double stop_s = emergency_stop_s(conflict) +
-                              travel_s(driver, wait_m - c.front_m, speed_mps, w_.lane(c.connection).limit_mps);
+        const double stop_s = emergency_stop_s(conflict) + to_wait_s;
         return std::max(c.front_m >= wait_m - kWaitingPlace_m ? std::min(gap_s, free_s) : free_s, stop_s);
     }
 

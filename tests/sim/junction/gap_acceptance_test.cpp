@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <iterator>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "base/containers/index.h"
+#include "base/speed_thresholds.h"
 #include "scenario/build_model.h"
 #include "scenario/load_scenario.h"
 #include "sim/junction/arrivals.h"
@@ -184,6 +186,79 @@ TEST_P(GapAcceptance, AcceptsLongGapsAndRejectsShortOnes) {
             << "a sufficient gap was not used, up to " << arrivals[k].time_s << " s";
     }
     EXPECT_GE(rejected, 10);
+}
+
+// A left-turning vehicle and a vehicle with priority, alone in the network.
+struct Encounter {
+    bool stops;    // the left-turning vehicle stops
+    double lag_s;  // from the arrival at the waiting position to the arrival of the other vehicle at the conflict area;
+                   // negative: the left-turning vehicle goes second
+};
+
+// A moving vehicle accepts a lag that is at least the critical lag. With the critical gap of 60 s alone, it would never
+// turn before the other vehicle.
+TEST_P(GapAcceptance, MovingVehicleAcceptsTheCriticalLag) {
+    const std::span<const Conflict> conflicts = model_.graph.conflicts_of(left_turn_);
+    const auto conflict =
+        std::find_if(conflicts.begin(), conflicts.end(), [&](const Conflict& c) { return c.other == priority_; });
+    ASSERT_NE(conflict, conflicts.end());
+    GiveWaySettings& give_way = model_.drivers[0].give_way;
+    const double wait_m = conflict->from_m - give_way.margin_m;
+    std::int64_t& left = inlet_to(left_turn_).vehicles;
+    std::int64_t& priority = inlet_to(priority_).vehicles;
+    // `head_start_s`: time from the entry of the left-turning vehicle to that of the vehicle with priority.
+    const auto meet = [&](double head_start_s) {
+        left = priority = 0;
+        Simulation simulation(model_);
+        const State& state = simulation.state();
+        Encounter result{false, 0.0};
+        double waits_from_s = -1.0;
+        double arrives_s = -1.0;
+        while (simulation.time_s() < 60.0) {
+            if (simulation.time_s() >= 5.0) left = 1;
+            if (simulation.time_s() >= 5.0 + head_start_s) priority = 1;
+            simulation.step();
+            const LaneBlock& path = state.blocks[at(left_turn_)];
+            if (path.count > 0 && waits_from_s < 0.0) {
+                if (state.vehicles.speed_mps[at(path.first)] < kCrawlingSpeed_mps) result.stops = true;
+                if (state.vehicles.position_m[at(path.first)] >= wait_m) waits_from_s = simulation.time_s();
+            }
+            const LaneBlock& other = state.blocks[at(priority_)];
+            if (arrives_s < 0.0 && other.count > 0 &&
+                state.vehicles.position_m[at(other.first)] >= conflict->other_from_m)
+                arrives_s = simulation.time_s();
+        }
+        EXPECT_TRUE(state.records.violations.none());
+        EXPECT_GE(waits_from_s, 0.0);
+        EXPECT_GE(arrives_s, 0.0);
+        result.lag_s = arrives_s - waits_from_s;
+        return result;
+    };
+    give_way.critical_gap_s = 60.0;
+    std::vector<double> shortest_lags_s;
+    for (const double critical_s : {4.5, 6.5}) {
+        give_way.critical_lag_s = critical_s;
+        double shortest_s = 1e9;
+        int yields = 0;
+        for (double head_start_s = 0.0; head_start_s <= 14.0; head_start_s += 0.2) {
+            const Encounter encounter = meet(head_start_s);
+            const bool goes_first = encounter.lag_s > 0.0;
+            yields += goes_first ? 0 : 1;
+            if (!goes_first) continue;
+            EXPECT_FALSE(encounter.stops) << critical_s << " s, head start " << head_start_s << " s";
+            shortest_s = std::min(shortest_s, encounter.lag_s);
+        }
+        EXPECT_GE(yields, 5) << critical_s;
+        // The left-turning vehicle arrives at its waiting position later than its driver predicts, because it brakes
+        // for the turn.
+        constexpr double kOwnDelay_s = 1.2;
+        // A right-turning vehicle with priority brakes for its turn and arrives later than predicted.
+        const double late_s = GetParam() == std::string("right") ? 3.0 : 1.0;
+        EXPECT_GE(shortest_s, critical_s - kOwnDelay_s);
+        EXPECT_LE(shortest_s, critical_s + late_s);
+        shortest_lags_s.push_back(shortest_s);
+    }
+    EXPECT_GT(shortest_lags_s[1] - shortest_lags_s[0], 0.8);
 }
 
 }  // namespace
