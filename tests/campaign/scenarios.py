@@ -218,7 +218,10 @@ class ScenarioDraw:
                 "demand": self.junction_demand(lanes), "measure": {"window": "30 s"}}  # fmt: skip
 
     def streets(self):
-        self.files["streets.yaml"], _ = random_corridors.streets_text(self.seed)
+        text, _ = random_corridors.streets_text(self.seed)
+        if self.chance(30):
+            text = text.replace("median: 4 m\n", f"median: 4 m\npassing_clearance: {self.number(2, 3.5, 1)} m\n")
+        self.files["streets.yaml"] = text
         fields = {"network": {"kind": "streets", "streets": "./streets.yaml"}, "measure": {"window": "30 s"}}
         fields["demand"] = {"kind": "saturated"} if self.chance(70) else self.rate(2)
         if self.chance(25):
