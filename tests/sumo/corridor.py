@@ -4,10 +4,10 @@
     corridor.py --bin FOLDER_OF_STOPLINE_PROGRAMS
 
 Both programs get the same network (stopline-export), signals and car-following parameters (Table 2 of the paper). Our
-drivers start, stop and yield like SUMO's, and wait like SUMO's behind left turners. SUMO's demand does not come from our
-run: vehicles always wait on each inlet lane, and their turns are drawn at random with the shares of the streets file.
-Both programs count vehicles at the same places. SUMO's results are stored, so that a second comparison with the same
-inputs is fast.
+drivers start, stop and yield like SUMO's, and wait like SUMO's behind left turners. SUMO's demand does not come from
+our run: vehicles always wait on each inlet lane, and their turns are drawn at random with the shares of the streets
+file. Both programs count vehicles at the same places. SUMO's results are stored, so that a second comparison with the
+same inputs is fast.
 
 Exit codes: 0 all requirements are met, 1 some are missed, 77 SUMO is not installed.
 """
@@ -67,7 +67,8 @@ def add_run_options(parser):
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="setting of our scenario")
     parser.add_argument("--own-driver", action="store_true", help="keep the driver of the scenario. By default our "
                         "drivers start, stop and yield like SUMO's (no hesitation, deceleration 4.7 m/s2, critical gap "
-                        "11.8 s, critical lag 8.3 s) and wait like SUMO's behind left turners (passing clearance 3.5 m)")
+                        "11.8 s, critical lag 8.3 s) and wait like SUMO's behind left turners (passing clearance: "
+                        "lane width)")
     parser.add_argument("--sumo-option", action="append", default=[], metavar="OPTION", help="option of SUMO, such as "
                         "--sumo-option=--lanechange.duration=3")
     parser.add_argument("--vtype", action="append", default=[], metavar="KEY=VALUE",

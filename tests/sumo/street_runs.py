@@ -15,6 +15,7 @@ from collections import defaultdict
 from pathlib import Path
 
 import street_inputs
+from cross_check import HERE
 
 POPULATIONS = {"CTG": "CTG-Ref", "dense": "CDG"}
 DENSE = {"tau": "0.1"}  # SUMO's step; SUMO does not allow a shorter reaction time
@@ -24,9 +25,9 @@ LIKE_SUMO = ["driver.free_drive.hesitation=0 s", "driver.stop.deceleration=4.7 m
              "driver.stop.decision_deceleration=5.3 m/s2"]
 # With these values, critical_gaps.py measures nearly the same gaps and lags in both programs at one intersection.
 YIELD_LIKE_SUMO = ["driver.give_way.critical_gap=11.8 s", "driver.give_way.critical_lag=8.3 s"]
-# SUMO's vehicles wait behind a left turner from their own lane until the paths are a lane width apart. Lanes are 3.5 m
-# wide by default.
-PASS_LIKE_SUMO = ["network.streets.passing_clearance=3.5 m"]
+PASSING_CLEARANCE = "network.streets.passing_clearance"
+STREETS_FOLDER = HERE.parents[1] / "data" / "berlin"
+DEFAULT_LANE_WIDTH = "3.5 m"
 EXPORT_S = 300  # length of the run of stopline-export; longer than a signal cycle
 KEY_S = 60      # sumo_key() hashes the demand of the first 60 s only; this part identifies the whole demand
 VIOLATIONS = ["overlaps", "conflicts", "red_entries", "lost_vehicles"]
@@ -51,6 +52,19 @@ def yield_settings(chosen):
     return YIELD_LIKE_SUMO if {key_of(setting) for setting in chosen}.isdisjoint(map(key_of, YIELD_LIKE_SUMO)) else []
 
 
+def lane_width(options):
+    """Returns the lane width of the streets, as text with a unit."""
+    texts = [options.scenario.read_text(encoding="utf-8")]
+    named = re.search(r"\bstreets:\s*([^\s{},#]+)", texts[0])
+    name = options.layout or (named[1] if named else "")
+    for file in (Path(name), options.scenario.parent / name, STREETS_FOLDER / f"{name}.yaml"):
+        if name and file.is_file():
+            texts.insert(0, file.read_text(encoding="utf-8"))
+            break
+    widths = [found[1] for text in texts if (found := re.search(r"\blane_width:\s*([0-9.]+\s*m)\b", text))]
+    return widths[0] if widths else DEFAULT_LANE_WIDTH
+
+
 def settings_of(options, policy, duration_s):
     """Returns the settings of the scenario as arguments. The user's settings (options.set) may replace those that make
     our drivers behave like SUMO's. If the user sets the critical gap or the critical lag, neither of
@@ -64,7 +78,9 @@ def settings_of(options, policy, duration_s):
         own.append(f"network.streets={path.resolve() if path.is_file() else options.layout}")
     if not options.own_driver:
         chosen = {key_of(setting) for setting in options.set}
-        own += [setting for setting in LIKE_SUMO + PASS_LIKE_SUMO if key_of(setting) not in chosen]
+        own += [setting for setting in LIKE_SUMO if key_of(setting) not in chosen]
+        # SUMO's vehicles wait behind a left turner from their own lane until the paths are a lane width apart.
+        own += [] if PASSING_CLEARANCE in chosen else [f"{PASSING_CLEARANCE}={lane_width(options)}"]
         own += yield_settings(options.set)
     arguments = []
     for setting in own + options.set:
