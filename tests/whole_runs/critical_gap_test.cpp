@@ -36,5 +36,22 @@ populations: [CTG-Ref]
 INSTANTIATE_TEST_SUITE_P(Fidelities, CriticalGap, ::testing::Values("meso", "full"),
                          [](const auto& fidelity) { return std::string(fidelity.param); });
 
+// A left-turning vehicle accepts a gap while the vehicle before the gap is still in its way. It starts a step later. The
+// next vehicle with priority must then still be able to stop.
+TEST(KeptGap, LeavesTimeToStop) {
+    const Scenario scenario = parse_scenario(R"(
+fidelity: meso
+meso: fitted
+network: {kind: intersection}
+demand: {left: 11 %}
+driver: {base: startup_kit, give_way: {critical_gap: 0 s}}
+populations: [CTG-Ref]
+)",
+                                             "test.yaml");
+    const IntersectionResult result = run_intersection(scenario, 0);
+    EXPECT_GT(result.gaps_accepted, 10);
+    EXPECT_TRUE(result.violations.none());
+}
+
 }  // namespace
 }  // namespace stopline

@@ -64,15 +64,15 @@ double emergency_stop_gap_s(const Model& model, const State& state, const Confli
 }
 
 // Returns the earliest arrival time of the next vehicle with priority, in s from now, at which candidate `v` still
-// accepts the gap. `wait_m`: waiting position of the candidate. `has_begun`: the candidate is moving and uses a gap
-// that it has accepted before.
+// accepts the gap. `wait_m`: waiting position of the candidate. `delay_s`: the candidate can start only after this
+// time. `has_begun`: the candidate is moving and uses a gap that it has accepted before.
 // As in the Highway Capacity Manual, the gap begins when the previous vehicle with priority has reached the area. If
 // this vehicle has left the area, the gap begins now. The critical gap holds for a vehicle that starts from rest at
 // `wait_m`. A candidate that needs more time than this vehicle to pass the area needs a longer gap, by the difference.
 // A faster candidate needs a shorter gap. If the driver has a critical lag, this lag replaces the critical gap while
 // the candidate moves.
 double needed_time_s(const Model& model, const State& state, int lane, const Conflict& conflict, const Candidate& v,
-                     double wait_m, bool has_begun) {
+                     double wait_m, double delay_s, bool has_begun) {
     const VehicleArrays& arrays = state.vehicles;
     const double speed_mps = arrays.speed_mps[at(v.slot)];
     const DriverPlan& driver = model.driver_of(arrays.policy[at(v.slot)]);
@@ -90,7 +90,7 @@ double needed_time_s(const Model& model, const State& state, int lane, const Con
     if (is_imported) return unhindered_s;
     // In other networks, a candidate that has reached its waiting position may make the next vehicle with priority
     // brake. When the candidate reaches this position, that vehicle must have the time for an emergency stop.
-    const double stop_s = emergency_stop_gap_s(model, state, conflict) + to_wait_s;
+    const double stop_s = emergency_stop_gap_s(model, state, conflict) + to_wait_s + delay_s;
     const bool is_at_wait = v.front_m >= wait_m - kWaitingTolerance_m;
     return std::max(is_at_wait ? std::min(gap_s, unhindered_s) : unhindered_s, stop_s);
 }
@@ -117,7 +117,7 @@ int yield_cycle_winner(const Model& model, const State& state, int lane, const C
 }  // namespace
 
 GapBlocker find_gap_blocker(const Model& model, State& state, Partition& part, int lane, const Candidate& v,
-                            double wait_m) {
+                            double wait_m, double delay_s) {
     VehicleArrays& arrays = state.vehicles;
     VehicleRecord& record = arrays.record[at(v.slot)];
     const bool had_accepted_gap = record.accepted_gap_on == lane;
@@ -133,7 +133,7 @@ GapBlocker find_gap_blocker(const Model& model, State& state, Partition& part, i
     double next_needed_s = 0.0;
     for (const Conflict& conflict : state.plan.conflicts(lane)) {
         if (!conflict.yields || v.front_m > conflict.from_m) continue;
-        const double until_s = needed_time_s(model, state, lane, conflict, v, wait_m, has_begun);
+        const double until_s = needed_time_s(model, state, lane, conflict, v, wait_m, delay_s, has_begun);
         const Arrival arrival = next_arrival(model, state, conflict, until_s, resolution != nullptr);
         next.keep_earlier(arrival.time_s, arrival.slot);
         next_needed_s = std::max(next_needed_s, until_s);

@@ -18,9 +18,9 @@ struct GapBlocker {
 // Returns the vehicle to which candidate `v` on connection `lane` must yield. This is a vehicle with priority that
 // arrives too soon. If the candidate is stopped and the network is imported, it can also be a vehicle without priority
 // that has accepted a gap. Stores in VehicleRecord::accepted_gap_on whether the candidate accepts its gap. `wait_m`:
-// the candidate's waiting position, along the connection.
+// the candidate's waiting position, along the connection. `delay_s`: the candidate can start only after this time.
 GapBlocker find_gap_blocker(const Model& model, State& state, Partition& part, int lane, const Candidate& v,
-                            double wait_m);
+                            double wait_m, double delay_s);
 
 // Returns the slot of a vehicle without priority that approaches connection `conflict.other`, has accepted a gap, and
 // can no longer stop comfortably before the first conflict area of this connection; -1: none. By now the accepted gap

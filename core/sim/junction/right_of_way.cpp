@@ -233,7 +233,9 @@ private:
         if (conflict.other_yields) wait.reason = YieldReason::intruder;
         // The gap behind a vehicle with priority begins when that vehicle reaches the area. So the candidate can
         // already accept the gap while the vehicle with priority is still in the area.
-        if (conflict.yields && v_.stopped && !blocker_is_slow) wait.keeps_gap = gap_blocker(conflict).slot < 0;
+        // It starts at the earliest in the next step, and does not check the gap again then.
+        if (conflict.yields && v_.stopped && !blocker_is_slow)
+            wait.keeps_gap = gap_blocker(conflict, model_.step_s).slot < 0;
         return wait;
     }
 
@@ -306,9 +308,10 @@ private:
         return place_m;
     }
 
-    GapBlocker gap_blocker(const Conflict& conflict) {
+    // `delay_s`: the candidate can start only after this time.
+    GapBlocker gap_blocker(const Conflict& conflict, double delay_s = 0.0) {
         const double place_m = is_imported_ ? std::min(wait_m(conflict), line_m_) : wait_m(conflict);
-        return find_gap_blocker(model_, state_, part_, lane_, v_, place_m);
+        return find_gap_blocker(model_, state_, part_, lane_, v_, place_m, delay_s);
     }
 
     const Model& model_;

@@ -26,8 +26,9 @@ class GapAcceptance {
 public:
     GapAcceptance(World& world, Resolutions& resolutions) : w_(world), merging_(world), resolutions_(resolutions) {}
 
-    // Returns the vehicle to which a candidate must yield, if it waits at `wait_m`. Sets Vehicle::accepted_gap_on.
-    GapBlocker blocker(const Candidate& c, double wait_m) {
+    // Returns the vehicle to which a candidate must yield, if it waits at `wait_m` and can start after `delay_s`. Sets
+    // Vehicle::accepted_gap_on.
+    GapBlocker blocker(const Candidate& c, double wait_m, double delay_s) {
         Vehicle& v = *c.vehicle;
         const bool had_gap = v.accepted_gap_on == c.connection;
         v.accepted_gap_on = -1;
@@ -39,7 +40,7 @@ public:
         }
         for (const Conflict& conflict : w_.lane(c.connection).conflicts) {
             if (!conflict.yields || c.front_m > conflict.from_m) continue;
-            const double until_s = needed_s(c, conflict, wait_m, had_gap && !c.is_stopped());
+            const double until_s = needed_s(c, conflict, wait_m, delay_s, had_gap && !c.is_stopped());
             const Arrival arrival = next_arrival(conflict, until_s, resolution != nullptr);
             if (arrival.time_s >= until_s) continue;
             ++w_.situations.gaps_refused;
@@ -127,7 +128,7 @@ private:
     // not hinder the next vehicle. Exception: at its waiting position in a
     // generated network it only leaves that vehicle the time for an emergency stop. `has_begun`: the candidate moves
     // and has accepted the gap before.
-    double needed_s(const Candidate& c, const Conflict& conflict, double wait_m, bool has_begun) const {
+    double needed_s(const Candidate& c, const Conflict& conflict, double wait_m, double delay_s, bool has_begun) const {
         constexpr double kWaitingPlace_m = 1.0;
         const DriverSettings& driver = w_.driver(*c.vehicle);
         const double speed_mps = c.vehicle->speed_mps;
@@ -138,7 +139,7 @@ private:
         if (driver.give_way.critical_lag_s > 0.0 && !c.is_stopped()) gap_s = driver.give_way.critical_lag_s + to_wait_s;
         const double free_s = has_begun ? now_s : std::max(gap_s, now_s);
         if (w_.is_imported) return free_s;
-        const double stop_s = emergency_stop_s(conflict) + to_wait_s;
+        const double stop_s = emergency_stop_s(conflict) + to_wait_s + delay_s;
         return std::max(c.front_m >= wait_m - kWaitingPlace_m ? std::min(gap_s, free_s) : free_s, stop_s);
     }
 

@@ -201,8 +201,8 @@ private:
         return behind;
     }
 
-    GapBlocker gap_blocker(const Candidate& c, const Conflict& conflict, const Places& places) {
-        return gaps_.blocker(c, w_.is_imported ? places.at_m(conflict) : places.before_m(conflict));
+    GapBlocker gap_blocker(const Candidate& c, const Conflict& conflict, const Places& places, double delay_s = 0.0) {
+        return gaps_.blocker(c, w_.is_imported ? places.at_m(conflict) : places.before_m(conflict), delay_s);
     }
 
     // Returns true if the candidate may wait at the stop line only, and can still stop there.
@@ -233,7 +233,7 @@ private:
         Wait wait{places.at_m(conflict), blocker, WaitReason::occupied};
         if (conflict.other_yields) wait.reason = WaitReason::intruder;
         if (conflict.yields && c.is_stopped() && !blocker->is_slow())
-            wait.keeps_gap = gap_blocker(c, conflict, places).vehicle == nullptr;
+            wait.keeps_gap = gap_blocker(c, conflict, places, w_.step_s).vehicle == nullptr;
         return wait;
     }
 
