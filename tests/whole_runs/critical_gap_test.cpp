@@ -36,8 +36,8 @@ populations: [CTG-Ref]
 INSTANTIATE_TEST_SUITE_P(Fidelities, CriticalGap, ::testing::Values("meso", "full"),
                          [](const auto& fidelity) { return std::string(fidelity.param); });
 
-// A left-turning vehicle accepts a gap while the vehicle before the gap is still in its way. It starts a step later. The
-// next vehicle with priority must then still be able to stop.
+// A left-turning vehicle accepts a gap while the vehicle before the gap is still in its way. It starts a step later.
+// The next vehicle with priority must then still be able to stop.
 TEST(KeptGap, LeavesTimeToStop) {
     const Scenario scenario = parse_scenario(R"(
 fidelity: meso
