@@ -125,9 +125,8 @@ private:
     // Returns the earliest arrival of the next vehicle with priority at which the candidate accepts the gap. The
     // critical gap begins when a vehicle with priority reaches the area, or now if the area is free. It holds for a
     // start from rest. While the candidate moves, a critical lag above 0 replaces the critical gap. The candidate does
-    // not hinder the next vehicle. Exception: at its waiting position in a
-    // generated network it only leaves that vehicle the time for an emergency stop. `has_begun`: the candidate moves
-    // and has accepted the gap before.
+    // not hinder the next vehicle. Exception: at its waiting position in a generated network it only leaves that
+    // vehicle the time for an emergency stop. `has_begun`: the candidate moves and has accepted the gap before.
     double needed_s(const Candidate& c, const Conflict& conflict, double wait_m, double delay_s, bool has_begun) const {
         constexpr double kWaitingPlace_m = 1.0;
         const DriverSettings& driver = w_.driver(*c.vehicle);
