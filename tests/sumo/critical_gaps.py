@@ -109,9 +109,8 @@ def run_sumo(options, sumo, exported, layout, opposing_veh_h, seed, folder):
 
     first = via("west_in", "north_out")
     length_m = next(float(lane.get("length")) for lane in net.iter("lane") if lane.get("id") == first)
-    attributes = dict(ElementTree.parse(exported / "vehicles.rou.xml").getroot().find("vType").attrib) | {"id": "car"}
-    vehicle_type = "<vType " + " ".join(f'{name}="{value}"' for name, value in attributes.items()) + "/>"
-    left_turns.write_demand(folder / "demand.rou.xml", layout, vehicle_type, opposing_veh_h, seed)
+    left_turns.write_demand(folder / "demand.rou.xml", layout, left_turns.vehicle_type(exported, []), opposing_veh_h,
+                            seed)
     street_runs.check_call([sumo, "-c", exported / "run.sumocfg", "--route-files", "demand.rou.xml", "--end",
                             left_turns.RUN_S, "--no-step-log", "--no-warnings", "--seed", seed, "--max-depart-delay",
                             1.6, "--fcd-output", "fcd.xml", "--fcd-output.attributes", "id,lane,pos,speed"], folder)

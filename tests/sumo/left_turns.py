@@ -130,13 +130,17 @@ def write_demand(file, layout, vehicle_type, opposing_veh_h, seed):
     file.write_text("\n".join(["<routes>", vehicle_type, *lines, "</routes>"]))
 
 
+def vehicle_type(exported, settings):
+    """Returns the exported vehicle type as XML. `settings`: attributes that replace its own, as NAME=VALUE."""
+    attributes = dict(ElementTree.parse(exported / "vehicles.rou.xml").getroot().find("vType").attrib)
+    attributes |= {"id": "car", **dict(setting.split("=", 1) for setting in settings)}
+    return "<vType " + " ".join(f'{name}="{value}"' for name, value in attributes.items()) + "/>"
+
+
 def run_sumo(options, sumo, exported, layout, opposing_veh_h, seed, folder):
     """Returns the vehicles that pass the stop line of the left lane."""
     folder.mkdir(parents=True, exist_ok=True)
-    attributes = dict(ElementTree.parse(exported / "vehicles.rou.xml").getroot().find("vType").attrib)
-    attributes |= {"id": "car", **dict(setting.split("=", 1) for setting in options.vtype)}
-    vehicle_type = "<vType " + " ".join(f'{name}="{value}"' for name, value in attributes.items()) + "/>"
-    write_demand(folder / "demand.rou.xml", layout, vehicle_type, opposing_veh_h, seed)
+    write_demand(folder / "demand.rou.xml", layout, vehicle_type(exported, options.vtype), opposing_veh_h, seed)
     (folder / "loops.add.xml").write_text(
         f'<additional><inductionLoop id="left" lane="west_in_{len(layout.lanes) - 1}" pos="-0.1" period="{STEP_S}" '
         'file="loops.xml"/></additional>')

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <string>
-#include <vector>
 
 #include "base/containers/index.h"
 #include "base/speed_thresholds.h"
@@ -46,17 +45,20 @@ Encounters encounters_with(const std::string& passing_clearance) {
         const LaneBlock& turning = state.blocks[at(left)];
         const bool is_stopped = turning.count > 0 && v.speed_mps[at(turning.first)] < kStoppedSpeed_mps;
         const int id = is_stopped ? v.id[at(turning.first)] : -1;
-        if (id != waiting) follower = -1;
-        if (id >= 0 && id != waiting) ++counted.waits;
-        const bool is_new = id != waiting;
-        waiting = id;
+        if (id != waiting) {
+            waiting = id;
+            follower = -1;
+            counted.waits += id >= 0 ? 1 : 0;
+            continue;
+        }
+        if (waiting < 0) continue;
         const LaneBlock& passing = state.blocks[at(straight)];
-        if (waiting < 0 || is_new) continue;
         if (follower >= 0 && (passing.count == 0 || v.id[at(passing.first)] != follower)) {
             ++counted.passes;
             follower = -1;
         }
-        if (passing.count > 0 && v.position_m[at(passing.first)] < 4.0) follower = v.id[at(passing.first)];
+        constexpr double kJustEntered_m = 4.0;
+        if (passing.count > 0 && v.position_m[at(passing.first)] < kJustEntered_m) follower = v.id[at(passing.first)];
     }
     EXPECT_TRUE(state.records.violations.none());
     return counted;

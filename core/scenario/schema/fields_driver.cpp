@@ -191,9 +191,10 @@ const Table& give_way_table() {
                                        "time of the next vehicle for an emergency stop"),
             number<&S::critical_lag_s>(
                 "critical_lag", "s", {0, 60},
-                "replaces critical_gap for a yielding vehicle that is faster than 1 m/s: shortest accepted time from its "
-                "arrival at its waiting position until the next vehicle with priority reaches the conflict area; 0 s: "
-                "derived from critical_gap, shorter by the time that a moving vehicle gains over a start from rest"),
+                "replaces critical_gap for a yielding vehicle that is faster than 1 m/s: shortest accepted time from "
+                "its arrival at its waiting position until the next vehicle with priority reaches the conflict area; "
+                "0 s: derived from critical_gap, shorter by the time that a moving vehicle gains over a start from "
+                "rest"),
             number<&S::margin_m>("margin", "m", {0, 10},
                                  "distance from the front of a waiting vehicle to the conflict area"),
             number<&S::approach_acceleration_mps2>(
