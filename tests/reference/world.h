@@ -88,8 +88,10 @@ struct Vehicle {
 
     // Lane changes.
     std::int64_t change_tick = -1'000'000;  // step of the latest lane change
-    // Step in which the vehicle, almost at rest, latest let another vehicle in for the route of that vehicle.
+    // Steps in which the vehicle, almost at rest, latest let another vehicle in for the route of that vehicle.
+    // let_in_last_tick: a vehicle that had waited at its last place. let_in_tick: any other vehicle.
     std::int64_t let_in_tick = -1'000'000;
+    std::int64_t let_in_last_tick = -1'000'000;
     double remembered_mps = 0.0;  // highest recent speed
     double left_gain_mps = 0.0;   // speed that the left lane would have gained
     double right_gain_mps = 0.0;

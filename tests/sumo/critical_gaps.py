@@ -13,7 +13,7 @@ stop has accepted its lag, one that stops has rejected it. Lags are left out if 
 opposing vehicle has passed the middle.
 
 The critical value is that of Raff: the number of accepted times below it equals the number of rejected times above it.
-Our drivers start, stop and yield with the settings of corridor.py.
+Our drivers start, stop and yield with the settings of corridor.py. --set and --vtype change one of the programs.
 
 Exit codes: 0 done, 77 SUMO is not installed.
 """
@@ -109,8 +109,8 @@ def run_sumo(options, sumo, exported, layout, opposing_veh_h, seed, folder):
 
     first = via("west_in", "north_out")
     length_m = next(float(lane.get("length")) for lane in net.iter("lane") if lane.get("id") == first)
-    left_turns.write_demand(folder / "demand.rou.xml", layout, left_turns.vehicle_type(exported, []), opposing_veh_h,
-                            seed)
+    vehicle_type = left_turns.vehicle_type(exported, options.vtype)
+    left_turns.write_demand(folder / "demand.rou.xml", layout, vehicle_type, opposing_veh_h, seed)
     street_runs.check_call([sumo, "-c", exported / "run.sumocfg", "--route-files", "demand.rou.xml", "--end",
                             left_turns.RUN_S, "--no-step-log", "--no-warnings", "--seed", seed, "--max-depart-delay",
                             1.6, "--fcd-output", "fcd.xml", "--fcd-output.attributes", "id,lane,pos,speed"], folder)
@@ -143,6 +143,8 @@ def main():
                         help="opposing flows, veh/h, on three lanes together")
     parser.add_argument("--seeds", type=int, default=3, help="number of runs for each flow (default: 3)")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="setting of our scenario")
+    parser.add_argument("--vtype", action="append", default=[], metavar="KEY=VALUE",
+                        help="attribute of SUMO's vehicle type, such as impatience=1")
     options = parser.parse_args()
     found = find_sumo()
     if found is None:

@@ -17,8 +17,12 @@ from pathlib import Path
 import street_inputs
 from cross_check import HERE
 
-POPULATIONS = {"CTG": "CTG-Ref", "dense": "CDG"}
-DENSE = {"tau": "0.1"}  # SUMO's step; SUMO does not allow a shorter reaction time
+POPULATIONS = {"CTG": "CTG-Ref", "dense": "CDG", "short_gap": "CTG-0.1"}
+SHORT_TAU = {"tau": "0.1"}  # SUMO's step; SUMO does not allow a shorter reaction time
+# Settings of the policy short_gap: SUMO's vehicles of the policy dense in our run.
+SHORT_GAP = ["meso={base: table2, constant_time: {acceleration: 1.4 m/s2, reaction: 0.1 s, dawdling: 0.02}, "
+             "calibrated_time_gap: 0.1 s}",
+             "policies=[{name: CTG-0.1, law: constant_time, standstill_gap: 2.95 m, time_gap: 0.1 s}]"]
 MARGIN_M = 20
 # Makes our drivers behave like SUMO's: no hesitation at the start of green, and SUMO's deceleration at stop lines.
 LIKE_SUMO = ["driver.free_drive.hesitation=0 s", "driver.stop.deceleration=4.7 m/s2",
@@ -70,7 +74,7 @@ def settings_of(options, policy, duration_s):
     our drivers behave like SUMO's. If the user sets the critical gap or the critical lag, neither of
     SUMO's values is used."""
     population = POPULATIONS[policy]
-    own = ["fidelity=meso", "meso=table2", f"populations=[{population}]", f"measure.baseline={population}",
+    own = ["fidelity=meso", *(SHORT_GAP if policy == "short_gap" else ["meso=table2"]), f"populations=[{population}]", f"measure.baseline={population}",
            "demand.kind=saturated", "demand.start=empty", f"duration={duration_s} s",
            f"measure.area_margin={MARGIN_M} m", "measure.window=1 s"]
     if options.layout:
@@ -136,8 +140,8 @@ def export(options, policy, folder):
                 POPULATIONS[policy], *settings_of(options, policy, EXPORT_S)])
     vehicle_type = ElementTree.parse(folder / "vehicles.rou.xml").getroot().find("vType").attrib
     vehicle_type["id"] = "car"
-    if policy == "dense":
-        vehicle_type.update(DENSE)
+    if policy != "CTG":
+        vehicle_type.update(SHORT_TAU)
     vehicle_type.update(dict(setting.split("=", 1) for setting in options.vtype))
     return "<vType " + " ".join(f'{name}="{value}"' for name, value in vehicle_type.items()) + "/>"
 

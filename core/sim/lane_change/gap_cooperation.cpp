@@ -27,7 +27,6 @@ constexpr double kDischarge_mps = 8.3;     // converts the length that a gap lac
 constexpr double kSlow_mps = 3.0;          // a queue is slower than this speed
 constexpr double kTimeLimit_s = 10.0;      // an agreement is cancelled if it holds back a vehicle for longer
 constexpr double kPause_s = 5.0;           // time from the cancellation to the next agreement
-constexpr double kLastPoint_m = 2.0;       // a requester this near to its waiting position counts as waiting
 constexpr double kReached_m = 0.3;         // a gap is open if it lacks less than this
 constexpr double kSilence_s = 1.0;         // an agreement ends if a vehicle hears nothing from the other for so long
 constexpr int kLostMessages = 3;           // and has missed at least so many messages
@@ -118,8 +117,7 @@ private:
         there_m_ = adjacent_position_m(state_, lane_, me.front_m, r.target_lane);
         // A requester at its waiting position needs no agreement. A vehicle of the target lane holds the gap open
         // without a time limit (gap_search.cpp).
-        const bool waits =
-            me.speed_mps < kCrawlingSpeed_mps && waiting_position_m(model_, state_, me) - me.front_m < kLastPoint_m;
+        const bool waits = waits_at_last_place(model_, state_, me);
         if (waits && r.agreed()) {
             end(r, GapEnding::stopped, 0.0);
             return true;

@@ -114,7 +114,7 @@ private:
             const int policy = v_.policy[at(slot)];
             if (!helps(slot, me)) continue;
             const bool stands = me.speed_mps < kMinSpeed_mps && v_.speed_mps[at(slot)] < kMinSpeed_mps;
-            if (stands && has_let_in(slot)) continue;
+            if (stands && has_let_in(slot, me)) continue;
             const double share = urgent_share(model_.driver_of(me.policy).lane_change, stands ? urgency : 1.0);
             const double needed_m = required_gap_m(model_, policy, 0.0, 0.0, share);
             if (gap_m >= braking_m + needed_m) return {slot, gap_m, v_.speed_mps[at(slot)], policy};
@@ -122,10 +122,15 @@ private:
         return {};
     }
 
-    // Returns true if a queued vehicle has already let another vehicle in on this approach. The vehicles of two lanes
-    // therefore take turns. Otherwise a queue could wait without end for vehicles that change to its lane.
-    bool has_let_in(int slot) const {
-        return v_.lane_memory[at(slot)].let_in_tick > v_.record[at(slot)].junction_entry_tick;
+    // Returns true if the queued vehicle in `slot` does not let `me` in because it has already let another vehicle in
+    // on this approach. The vehicles of two lanes therefore take turns. Otherwise a queue could wait without end for
+    // vehicles that change to its lane. Vehicles that wait at their last place count separately, because they block
+    // their lane.
+    bool has_let_in(int slot, const LaneChangeRequest& me) const {
+        const LaneChangeMemory& memory = v_.lane_memory[at(slot)];
+        const int latest_tick =
+            waits_at_last_place(model_, state_, me) ? memory.let_in_last_place_tick : memory.let_in_tick;
+        return latest_tick > v_.record[at(slot)].junction_entry_tick;
     }
 
     // Returns the target speed of a vehicle that opens a gap for `me`.

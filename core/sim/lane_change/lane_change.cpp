@@ -122,24 +122,13 @@ double pocket_entry_m(const State& state, const LaneChangeRequest& me) {
     return start_m > 0.0 ? start_m + me.length_m + kBesidePocket_m : kNoPocket_m;
 }
 
-// Returns the length that the vehicles ahead of `me` would have as a standing queue, m. Counts the vehicles ahead on
-// the target lane. If the change serves a later turn, also counts the vehicles on the exit lanes of the route, up to
-// the intersection of this turn.
-double queue_ahead_m(const Model& model, const State& state, const LaneChangeRequest& me, int changes) {
+// Returns the length that the vehicles ahead of `me` on its target lane would have as a standing queue, m. Vehicles
+// beyond the next intersection do not count, even if the change serves a later turn: the driver does not see them yet.
+double queue_ahead_m(const State& state, const LaneChangeRequest& me, int changes) {
     const int lane = lane_after_changes(state, me.lane, changes);
     if (lane < 0) return 0.0;
-    int vehicles = vehicles_ahead(state, lane, adjacent_position_m(state, me.lane, me.front_m, lane));
-    if (me.lane_changes == 0) {
-        const LaneChangeMemory& memory = state.vehicles.lane_memory[at(me.slot)];
-        int route = state.plan.adjacent(lane).turn_option(me.turn).route;
-        for (int k = 0; k < (memory.preferred_for_third ? 2 : 1) && route >= 0; ++k) {
-            const int exit = state.plan.route(route).back();
-            vehicles += state.blocks[at(exit)].count;
-            const Turn following = state.vehicles.record[at(me.slot)].following_turn;
-            route = state.plan.route_with(model.graph.lanes[at(exit)].approach, following);
-        }
-    }
-    return vehicles * state.plan.max_space_per_vehicle_m();
+    return vehicles_ahead(state, lane, adjacent_position_m(state, me.lane, me.front_m, lane)) *
+           state.plan.max_space_per_vehicle_m();
 }
 
 // Returns the position one standstill gap behind the last vehicle of pocket `other`, m from the start of the lane of
@@ -310,12 +299,15 @@ private:
         VehicleArrays& v = state_.vehicles;
         const int id = v.id[at(me_.slot)];
         const int from = me_.slot - state_.blocks[at(me_.lane)].first;
+        const bool from_last_place = for_route && waits_at_last_place(model_, state_, me_);
         const int slot = move_to_lane(model_, state_, me_.lane, from, other, there.index,
                                       adjacent_position_m(state_, me_.lane, me_.front_m, other));
         v.lane_memory[at(slot)].change_tick = static_cast<int>(state_.tick);
         const bool has_follower = slot < state_.blocks[at(other)].last();
-        if (for_route && has_follower && v.speed_mps[at(slot + 1)] < kCrawlingSpeed_mps)
-            v.lane_memory[at(slot + 1)].let_in_tick = static_cast<int>(state_.tick);
+        if (for_route && has_follower && v.speed_mps[at(slot + 1)] < kCrawlingSpeed_mps) {
+            LaneChangeMemory& follower = v.lane_memory[at(slot + 1)];
+            (from_last_place ? follower.let_in_last_place_tick : follower.let_in_tick) = static_cast<int>(state_.tick);
+        }
         const auto way_back_mps = static_cast<float>((1.0 - kReturnFactor) * lane_change().gain_mps);
         const bool to_the_right = other == state_.plan.adjacent(me_.lane).right;
         v.lane_memory[at(slot)].left_gain_mps = to_the_right ? way_back_mps : 0.0F;
@@ -378,7 +370,7 @@ MandatoryChange mandatory_change(const Model& model, const State& state, const L
         look_ahead_m(model, me, state.vehicles.lane_memory[at(me.slot)].remembered_mps, change.lane_changes);
     const double distance_m = me.lane_changes != 0 ? me.to_line_m : me.to_preferred_line_m;
     change.usable_m =
-        std::min(distance_m - queue_ahead_m(model, state, me, change.lane_changes), me.pocket_entry_m - me.front_m);
+        std::min(distance_m - queue_ahead_m(state, me, change.lane_changes), me.pocket_entry_m - me.front_m);
     if (change.usable_m >= change.look_ahead_m) change.lane_changes = 0;
     return change;
 }
@@ -399,6 +391,12 @@ double waiting_position_m(const Model& model, const State& state, const LaneChan
     if (me.pocket_entry_m == kNoPocket_m) return beside_m;
     if (std::abs(me.lane_changes) == 1) return std::min(beside_m, behind_pocket_queue_m(model, state, me, other));
     return me.front_m <= me.pocket_entry_m ? std::min(beside_m, me.pocket_entry_m) : beside_m;
+}
+
+bool waits_at_last_place(const Model& model, const State& state, const LaneChangeRequest& me) {
+    constexpr double kLastPlace_m = 2.0;
+    return me.lane_changes != 0 && me.speed_mps < kCrawlingSpeed_mps &&
+           waiting_position_m(model, state, me) - me.front_m < kLastPlace_m;
 }
 
 void change_lanes(const Model& model, State& state) {

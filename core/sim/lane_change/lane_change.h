@@ -72,6 +72,9 @@ double urgent_share(const LaneChangeSettings& settings, double urgency);
 // already passed this start.
 double waiting_position_m(const Model& model, const State& state, const LaneChangeRequest& me);
 
+// Returns true if a vehicle waits almost at rest for its next lane change, at most 2 m before its waiting position.
+bool waits_at_last_place(const Model& model, const State& state, const LaneChangeRequest& me);
+
 // Carries out lane changes. A vehicle decides about a lane change only every half second. A call treats only the
 // vehicles that decide in this step.
 void change_lanes(const Model& model, State& state);

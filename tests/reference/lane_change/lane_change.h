@@ -83,8 +83,10 @@ private:
         const Neighbours there = neighbours_on(other, me);
         if (!gaps_suffice(*me.vehicle, there, requests_.gap_share(*me.vehicle, change.urgency()))) return false;
         ++w_.situations.mandatory_changes;
-        if (there.index < other.vehicles.size() && other.vehicles[there.index].is_slow())
-            other.vehicles[there.index].let_in_tick = w_.tick;
+        if (there.index < other.vehicles.size() && other.vehicles[there.index].is_slow()) {
+            Vehicle& behind = other.vehicles[there.index];
+            (requests_.is_at_last_place(me) ? behind.let_in_last_tick : behind.let_in_tick) = w_.tick;
+        }
         move(*me.vehicle, other, there.index);
         return true;
     }

@@ -100,6 +100,11 @@ public:
         return v.position_m <= me.pocket_entry_m ? std::min(beside_m, me.pocket_entry_m) : beside_m;
     }
 
+    // Returns true if the vehicle stands at its waiting position.
+    bool is_at_last_place(const Request& me) const {
+        return me.required != 0 && me.vehicle->is_slow() && waiting_position_m(me) - me.vehicle->position_m < 2.0;
+    }
+
     // Returns the lane after a number of lane changes; null if there is none.
     const Lane* lane_after(const Lane& from, int changes) const {
         int number = from.number;
@@ -111,22 +116,13 @@ public:
 private:
     static constexpr double kBesidePocket_m = 1.0;
 
-    // Returns the length that the vehicles ahead on the target lane would have as a standing queue. For a later turn,
-    // the vehicles on the exit lanes count, too.
+    // Returns the length that the vehicles ahead on the target lane would have as a standing queue.
     double queue_ahead_m(const Request& me, int changes) const {
         const Vehicle& v = *me.vehicle;
         const Lane& on = w_.lane_of(v);
         const Lane* const target = lane_after(on, changes);
         if (target == nullptr) return 0.0;
-        std::size_t vehicles = LaneGaps::vehicles_ahead(*target, adjacent_position_m(on, v.position_m, *target));
-        if (me.required == 0) {
-            int route = routes_.option(target->number, me.turn).route;
-            for (int k = 0; k < (v.preferred_for_third ? 2 : 1) && route >= 0; ++k) {
-                const Lane& exit = w_.lane(w_.route_of(route).back());
-                vehicles += exit.vehicles.size();
-                route = routes_.route_on_approach(exit.approach, v.following_turn);
-            }
-        }
+        const auto vehicles = LaneGaps::vehicles_ahead(*target, adjacent_position_m(on, v.position_m, *target));
         return static_cast<double>(vehicles) * w_.longest_space_m();
     }
 

@@ -295,7 +295,7 @@ TEST_P(GapCooperationTest, ThreadsDoNotChangeTheResult) {
     std::vector<std::uint64_t> hashes;
     for (const int threads : {1, 2, 4}) {
         Simulation simulation(model, threads);
-        simulation.run_until(150.0);
+        simulation.run_until(300.0);
         hashes.push_back(simulation.state_hash());
         EXPECT_GT(simulation.state().records.gap_counts.of(GapEnding::used), 0);
         EXPECT_TRUE(simulation.state().records.violations.none());

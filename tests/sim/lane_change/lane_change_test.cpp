@@ -9,7 +9,9 @@
 
 #include "base/containers/index.h"
 #include "base/random.h"
+#include "sim/lane_change/lane_change.h"
 #include "sim/lane_change/route_choice.h"
+#include "sim/perception/lane_gaps.h"
 #include "support/track.h"
 
 namespace stopline {
@@ -230,6 +232,38 @@ TEST(OpeningOfGaps, AnApproachingVehicleLetsAWaitingVehicleIn) {
         ASSERT_EQ(track.state().records.lane_changes.size(), 1U) << fidelity;
         EXPECT_EQ(track.state().records.lane_changes[0].vehicle, waiting_vehicle);
         EXPECT_GT(track.state().blocks[2].count, kRow / 4) << fidelity << ": only the end of the row lets it in";
+    }
+}
+
+// A vehicle waits at the stop line beside a queue, for a change to the lane of this queue. The second vehicle of the
+// queue lets it in, even if it has already let in a vehicle further upstream. It does not if it has already let in
+// another vehicle that waited at the line: the two lanes take turns.
+TEST(OpeningOfGaps, AQueuedVehicleLetsOneVehicleInAtTheLine) {
+    for (const char* const fidelity : {"full", "meso"}) {
+        for (const bool at_the_line : {false, true}) {
+            TrackPlan plan = plan_of({fidelity, "CTG-Ref"}, 2);
+            plan.green_from_s = 5.0;
+            plan.overrides.emplace_back("driver.lane_change.gap_opening=on");
+            Track track(parallel_lanes(plan));
+            const double line_m = 1000.0 - track.model().common_driver().stop.margin_m;
+            // The queue is so dense that the gap becomes too short as soon as the second vehicle starts.
+            const double share = urgent_share(track.model().driver_of(0).lane_change, 1.0);
+            const double space_m =
+                track.model().vehicles[0].length_m + required_gap_m(track.model(), 0, 0.0, 0.0, share) + 0.05;
+            const int waiting = place(track, 0, line_m, 0.0, 1);
+            place(track, 1, line_m, 0.0, 1);
+            const int second = place(track, 1, line_m - space_m, 0.0, 1);
+            for (int k = 2; k < 6; ++k) place(track, 1, line_m - k * space_m, 0.0, 1);
+            LaneChangeMemory& memory = track.mutable_state().vehicles.lane_memory[track.slot(2, 1)];
+            (at_the_line ? memory.let_in_last_place_tick : memory.let_in_tick) = 1;
+            while (track.state().records.lane_changes.empty() && track.time_s() < 60.0) track.run(track.step_s());
+            ASSERT_EQ(track.state().records.lane_changes.size(), 1U) << fidelity;
+            EXPECT_EQ(track.state().records.lane_changes[0].vehicle, waiting);
+            const LaneBlock& queue = track.state().blocks[2];
+            bool is_behind = false;  // true: the second vehicle of the queue is behind the vehicle that has changed
+            for (int k = 1; k < queue.count; ++k) is_behind = is_behind || track.vehicle(2, k).id == second;
+            EXPECT_EQ(is_behind, !at_the_line) << fidelity;
+        }
     }
 }
 

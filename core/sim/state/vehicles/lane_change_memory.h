@@ -9,9 +9,11 @@ namespace stopline {
 
 struct LaneChangeMemory {
     int change_tick = -1'000'000;  // tick of the most recent lane change
-    // Tick of the most recent mandatory lane change of another vehicle to the place directly ahead of this vehicle.
-    // Only changes during which this vehicle was almost at rest count.
+    // Ticks of the most recent mandatory lane changes of other vehicles to the place directly ahead of this vehicle.
+    // Only changes during which this vehicle was almost at rest count. let_in_last_place_tick: changes of vehicles that
+    // waited at their last place (waits_at_last_place()). let_in_tick: all others.
     int let_in_tick = -1'000'000;
+    int let_in_last_place_tick = -1'000'000;
     float remembered_mps = 0.0F;  // highest recent speed; falls gradually while the vehicle drives more slowly
     // Speed that the vehicle would recently have gained on the left or right lane: the gain in acceleration, summed
     // over time. Older gains fade. The vehicle may change when the sum reaches LaneChangeSettings::gain_mps. Below 0:
