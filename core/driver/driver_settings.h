@@ -92,7 +92,8 @@ struct LaneChangeSettings {
     // shorter than its speed times n look_ahead_s, plus room for two vehicles. The usable distance is the distance to
     // the stop line minus the queue on the target lane, but at most the distance to the position from which on the
     // whole vehicle is beside its turn pocket. For changes to the left, left_factor times look_ahead_s applies. The
-    // form and both defaults are those of SUMO's model LC2013 (Erdmann 2015, "SUMO's lane-changing model").
+    // form and both defaults are those of SUMO's model LC2013 (Erdmann 2015, "SUMO's lane-changing model"). Unlike in
+    // LC2013, only the queue before the next intersection counts, also for a later turn.
     double look_ahead_s = 10.0;
     double left_factor = 2.0;
     // Smallest accepted lead gap and lag gap, as a share of the gap of the spacing policy. The share falls linearly

@@ -88,12 +88,11 @@ struct Vehicle {
 
     // Lane changes.
     std::int64_t change_tick = -1'000'000;  // step of the latest lane change
-    // Steps in which the vehicle, almost at rest, latest let another vehicle in for the route of that vehicle.
-    // let_in_last_tick: a vehicle that had waited at its last place. let_in_tick: any other vehicle.
-    std::int64_t let_in_tick = -1'000'000;
-    std::int64_t let_in_last_tick = -1'000'000;
-    double remembered_mps = 0.0;  // highest recent speed
-    double left_gain_mps = 0.0;   // speed that the left lane would have gained
+    // Steps in which the vehicle, almost at rest, latest let in another vehicle that had to change lanes for its route.
+    std::int64_t let_in_waiting_tick = -1'000'000;  // a vehicle that had waited at its waiting position
+    std::int64_t let_in_tick = -1'000'000;          // any other vehicle
+    double remembered_mps = 0.0;                    // highest recent speed
+    double left_gain_mps = 0.0;                     // speed that the left lane would have gained
     double right_gain_mps = 0.0;
 
     // Human drivers only.
@@ -214,6 +213,7 @@ struct Situations {
     std::int64_t merged = 0;         // vehicle steps in which a vehicle follows one that merges ahead of it
     std::int64_t stop_signs = 0;     // vehicles that stopped at a stop sign
     std::int64_t mandatory_changes = 0;
+    std::int64_t let_in_waiting = 0;  // queued vehicles that let in a vehicle at its waiting position
     std::int64_t discretionary_changes = 0;
     std::int64_t alignments = 0;      // vehicle steps in which a vehicle aligns with a gap in the adjacent lane
     std::int64_t hidden_leaders = 0;  // vehicle steps in which a vehicle brakes for a hidden leader
@@ -231,7 +231,8 @@ struct Situations {
               &Situations::gaps_accepted,   &Situations::gaps_refused,       &Situations::merged,
               &Situations::stop_signs,      &Situations::mandatory_changes,  &Situations::discretionary_changes,
               &Situations::alignments,      &Situations::hidden_leaders,     &Situations::human_steps,
-              &Situations::gear_changes,    &Situations::emergency_brakings, &Situations::slowed_before_limit}) {
+              &Situations::gear_changes,    &Situations::emergency_brakings, &Situations::slowed_before_limit,
+              &Situations::let_in_waiting}) {
             this->*count += other.*count;
         }
     }

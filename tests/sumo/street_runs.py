@@ -19,7 +19,8 @@ from cross_check import HERE
 
 POPULATIONS = {"CTG": "CTG-Ref", "dense": "CDG", "short_gap": "CTG-0.1"}
 SHORT_TAU = {"tau": "0.1"}  # SUMO's step; SUMO does not allow a shorter reaction time
-# Settings of the policy short_gap: SUMO's vehicles of the policy dense in our run.
+# Settings of our run for the policy short_gap. Our vehicles then have the parameters that SUMO's vehicles have with the
+# policy dense.
 SHORT_GAP = ["meso={base: table2, constant_time: {acceleration: 1.4 m/s2, reaction: 0.1 s, dawdling: 0.02}, "
              "calibrated_time_gap: 0.1 s}",
              "policies=[{name: CTG-0.1, law: constant_time, standstill_gap: 2.95 m, time_gap: 0.1 s}]"]
@@ -74,8 +75,8 @@ def settings_of(options, policy, duration_s):
     our drivers behave like SUMO's. If the user sets the critical gap or the critical lag, neither of
     SUMO's values is used."""
     population = POPULATIONS[policy]
-    own = ["fidelity=meso", *(SHORT_GAP if policy == "short_gap" else ["meso=table2"]), f"populations=[{population}]", f"measure.baseline={population}",
-           "demand.kind=saturated", "demand.start=empty", f"duration={duration_s} s",
+    own = ["fidelity=meso", *(SHORT_GAP if policy == "short_gap" else ["meso=table2"]),
+           f"populations=[{population}]", f"measure.baseline={population}", "demand.kind=saturated", "demand.start=empty", f"duration={duration_s} s",
            f"measure.area_margin={MARGIN_M} m", "measure.window=1 s"]
     if options.layout:
         path = Path(options.layout)

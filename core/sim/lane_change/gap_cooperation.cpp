@@ -117,7 +117,7 @@ private:
         there_m_ = adjacent_position_m(state_, lane_, me.front_m, r.target_lane);
         // A requester at its waiting position needs no agreement. A vehicle of the target lane holds the gap open
         // without a time limit (gap_search.cpp).
-        const bool waits = waits_at_last_place(model_, state_, me);
+        const bool waits = has_reached_waiting_position(model_, state_, me);
         if (waits && r.agreed()) {
             end(r, GapEnding::stopped, 0.0);
             return true;

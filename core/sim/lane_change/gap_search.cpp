@@ -99,14 +99,15 @@ private:
     // Returns the vehicle on lane `other` that opens a gap for `me`. It is the first vehicle behind `me` that can brake
     // to the speed of `me` with SpeedTarget::kDeceleration_mps2 and still has the gap that `me` requires at rest with
     // the highest urgency. If both vehicles are almost at rest, the gap cannot grow any more. So it must then suffice
-    // for the present urgency of `me`, and the vehicle must not have let another vehicle in before. The slot is -1 if
-    // there is no such vehicle or if gap opening is off.
+    // for the present urgency of `me`, and the vehicle must not have let a vehicle in before (has_let_in()). The slot
+    // is -1 if there is no such vehicle or if gap opening is off.
     Neighbour gap_opener(int other, const Neighbour& follower, const LaneChangeRequest& me, double urgency) const {
         // Number of vehicles checked. Vehicles further upstream are still too far away to open a gap for `me`.
         constexpr int kMaxSearched = 5;
         const LaneBlock& block = state_.blocks[at(other)];
         if (follower.slot < block.first) return {};
         const int end = std::min(block.past_last(), follower.slot + kMaxSearched);
+        const bool waiting = has_reached_waiting_position(model_, state_, me);
         for (int slot = follower.slot; slot < end; ++slot) {
             const double gap_m = follower.gap_m + v_.position_m[at(follower.slot)] - v_.position_m[at(slot)];
             const double braking_m =
@@ -114,7 +115,7 @@ private:
             const int policy = v_.policy[at(slot)];
             if (!helps(slot, me)) continue;
             const bool stands = me.speed_mps < kMinSpeed_mps && v_.speed_mps[at(slot)] < kMinSpeed_mps;
-            if (stands && has_let_in(slot, me)) continue;
+            if (stands && has_let_in(slot, waiting)) continue;
             const double share = urgent_share(model_.driver_of(me.policy).lane_change, stands ? urgency : 1.0);
             const double needed_m = required_gap_m(model_, policy, 0.0, 0.0, share);
             if (gap_m >= braking_m + needed_m) return {slot, gap_m, v_.speed_mps[at(slot)], policy};
@@ -122,14 +123,14 @@ private:
         return {};
     }
 
-    // Returns true if the queued vehicle in `slot` does not let `me` in because it has already let another vehicle in
-    // on this approach. The vehicles of two lanes therefore take turns. Otherwise a queue could wait without end for
-    // vehicles that change to its lane. Vehicles that wait at their last place count separately, because they block
-    // their lane.
-    bool has_let_in(int slot, const LaneChangeRequest& me) const {
+    // Returns true if the queued vehicle in `slot` has already let in a vehicle on this approach. The vehicles of two
+    // lanes therefore take turns. Otherwise a queue could wait without end for vehicles that change to its lane.
+    // Vehicles at their waiting position and all others count separately. A vehicle at its waiting position may block
+    // its lane, so a queued vehicle lets it in even if it has let in another one further upstream. `waiting`: the
+    // vehicle to be let in has reached its waiting position.
+    bool has_let_in(int slot, bool waiting) const {
         const LaneChangeMemory& memory = v_.lane_memory[at(slot)];
-        const int latest_tick =
-            waits_at_last_place(model_, state_, me) ? memory.let_in_last_place_tick : memory.let_in_tick;
+        const int latest_tick = waiting ? memory.let_in_waiting_tick : memory.let_in_tick;
         return latest_tick > v_.record[at(slot)].junction_entry_tick;
     }
 

@@ -122,8 +122,8 @@ double pocket_entry_m(const State& state, const LaneChangeRequest& me) {
     return start_m > 0.0 ? start_m + me.length_m + kBesidePocket_m : kNoPocket_m;
 }
 
-// Returns the length that the vehicles ahead of `me` on its target lane would have as a standing queue, m. Vehicles
-// beyond the next intersection do not count, even if the change serves a later turn: the driver does not see them yet.
+// Returns the length that the vehicles ahead of `me` on its target lane would have as a standing queue, m. Counts only
+// vehicles before the next intersection, also for a later turn, because the driver does not see the others yet.
 double queue_ahead_m(const State& state, const LaneChangeRequest& me, int changes) {
     const int lane = lane_after_changes(state, me.lane, changes);
     if (lane < 0) return 0.0;
@@ -299,14 +299,14 @@ private:
         VehicleArrays& v = state_.vehicles;
         const int id = v.id[at(me_.slot)];
         const int from = me_.slot - state_.blocks[at(me_.lane)].first;
-        const bool from_last_place = for_route && waits_at_last_place(model_, state_, me_);
+        const bool had_waited = for_route && has_reached_waiting_position(model_, state_, me_);
         const int slot = move_to_lane(model_, state_, me_.lane, from, other, there.index,
                                       adjacent_position_m(state_, me_.lane, me_.front_m, other));
         v.lane_memory[at(slot)].change_tick = static_cast<int>(state_.tick);
         const bool has_follower = slot < state_.blocks[at(other)].last();
         if (for_route && has_follower && v.speed_mps[at(slot + 1)] < kCrawlingSpeed_mps) {
             LaneChangeMemory& follower = v.lane_memory[at(slot + 1)];
-            (from_last_place ? follower.let_in_last_place_tick : follower.let_in_tick) = static_cast<int>(state_.tick);
+            (had_waited ? follower.let_in_waiting_tick : follower.let_in_tick) = static_cast<int>(state_.tick);
         }
         const auto way_back_mps = static_cast<float>((1.0 - kReturnFactor) * lane_change().gain_mps);
         const bool to_the_right = other == state_.plan.adjacent(me_.lane).right;
@@ -393,10 +393,10 @@ double waiting_position_m(const Model& model, const State& state, const LaneChan
     return me.front_m <= me.pocket_entry_m ? std::min(beside_m, me.pocket_entry_m) : beside_m;
 }
 
-bool waits_at_last_place(const Model& model, const State& state, const LaneChangeRequest& me) {
-    constexpr double kLastPlace_m = 2.0;
+bool has_reached_waiting_position(const Model& model, const State& state, const LaneChangeRequest& me) {
+    constexpr double kReached_m = 2.0;
     return me.lane_changes != 0 && me.speed_mps < kCrawlingSpeed_mps &&
-           waiting_position_m(model, state, me) - me.front_m < kLastPlace_m;
+           waiting_position_m(model, state, me) - me.front_m < kReached_m;
 }
 
 void change_lanes(const Model& model, State& state) {

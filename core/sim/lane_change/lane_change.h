@@ -2,9 +2,9 @@
 // is safe. A lane change takes no time.
 //
 // Mandatory changes serve the route. They follow the strategic changes of SUMO's LC2013 (Erdmann 2015, "SUMO's
-// lane-changing model"). A vehicle on a lane that does not serve its route begins to look for a gap at some distance
-// from the stop line, and changes as soon as the gaps allow it. Until then it aligns its speed with a gap. If it finds
-// no gap, it stops before the line and waits for one.
+// lane-changing model"), except that queues beyond the next intersection do not count. A vehicle on a lane that does
+// not serve its route begins to look for a gap at some distance from the stop line, and changes as soon as the gaps
+// allow it. Until then it aligns its speed with a gap. If it finds no gap, it stops before the line and waits for one.
 //
 // Discretionary changes serve the speed. They follow MOBIL (Kesting, Treiber, Helbing 2007, "General lane-changing
 // model MOBIL for car-following models"). A vehicle changes if the other lane has allowed a higher acceleration for
@@ -49,8 +49,9 @@ LaneChangeRequest lane_change_request(const Model& model, const State& state, in
 struct MandatoryChange {
     int lane_changes = 0;  // number of lane changes; below 0: to the left; 0: none is due
     // Distance that the vehicle has left for the lane changes: the distance to the stop line of the turn that needs
-    // them, minus the length of the queue ahead. If the changes lead into a pocket, it is at most the distance to
-    // pocket_entry_m.
+    // them, minus the length of the queue on the target lane before the next intersection. The turn may be at a later
+    // intersection; queues beyond the next one do not count. If the changes lead into a pocket, the usable distance is
+    // at most the distance to pocket_entry_m.
     double usable_m = 0.0;
     double look_ahead_m = 0.0;  // usable distance below which the vehicle looks for a gap
 
@@ -72,8 +73,9 @@ double urgent_share(const LaneChangeSettings& settings, double urgency);
 // already passed this start.
 double waiting_position_m(const Model& model, const State& state, const LaneChangeRequest& me);
 
-// Returns true if a vehicle waits almost at rest for its next lane change, at most 2 m before its waiting position.
-bool waits_at_last_place(const Model& model, const State& state, const LaneChangeRequest& me);
+// Returns true if a vehicle needs a lane change for its next turn, is slower than kCrawlingSpeed_mps, and is less than
+// 2 m upstream of its waiting position or has passed it.
+bool has_reached_waiting_position(const Model& model, const State& state, const LaneChangeRequest& me);
 
 // Carries out lane changes. A vehicle decides about a lane change only every half second. A call treats only the
 // vehicles that decide in this step.

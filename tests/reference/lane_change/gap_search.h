@@ -67,19 +67,20 @@ private:
     }
 
     // Returns the vehicle that opens a gap: the first of five that can brake gently enough; null if there is none. On
-    // each approach, a queued vehicle lets in one vehicle that waits at its last place, and one other vehicle.
+    // each approach, a queued vehicle opens a gap for one vehicle that has reached its waiting position, and for one
+    // other.
     Neighbour gap_opener(const Lane& other, const Neighbour& follower, const Request& me, double urgency) const {
         constexpr std::size_t kMaxSearched = 5;
         const double own_mps = me.vehicle->speed_mps;
         if (follower.vehicle->lane != other.number) return {};
         const std::size_t first = follower.vehicle->index;
+        const bool waiting = requests_.has_reached_waiting_position(me);
         for (std::size_t k = first; k < std::min(other.vehicles.size(), first + kMaxSearched); ++k) {
             const Vehicle& v = other.vehicles[k];
             if (w_.driver(v).lane_change.gap_opening != "on") continue;
             const double gap_m = follower.gap_m + follower.vehicle->position_m - v.position_m;
             const bool both_stand = own_mps < kMinSpeed_mps && v.speed_mps < kMinSpeed_mps;
-            const bool is_last = requests_.is_at_last_place(me);
-            if (both_stand && (is_last ? v.let_in_last_tick : v.let_in_tick) > v.entry_tick) continue;
+            if (both_stand && (waiting ? v.let_in_waiting_tick : v.let_in_tick) > v.entry_tick) continue;
             const double share = requests_.gap_share(*me.vehicle, both_stand ? urgency : 1.0);
             const double needed_m = gaps_.required_m(v.policy, 0.0, 0.0, share);
             if (gap_m >= braking_m(v.speed_mps, own_mps, kOpeningBraking_mps2) + needed_m) return {&v, gap_m};

@@ -85,7 +85,9 @@ private:
         ++w_.situations.mandatory_changes;
         if (there.index < other.vehicles.size() && other.vehicles[there.index].is_slow()) {
             Vehicle& behind = other.vehicles[there.index];
-            (requests_.is_at_last_place(me) ? behind.let_in_last_tick : behind.let_in_tick) = w_.tick;
+            const bool had_waited = requests_.has_reached_waiting_position(me);
+            (had_waited ? behind.let_in_waiting_tick : behind.let_in_tick) = w_.tick;
+            w_.situations.let_in_waiting += had_waited ? 1 : 0;
         }
         move(*me.vehicle, other, there.index);
         return true;

@@ -100,8 +100,8 @@ public:
         return v.position_m <= me.pocket_entry_m ? std::min(beside_m, me.pocket_entry_m) : beside_m;
     }
 
-    // Returns true if the vehicle stands at its waiting position.
-    bool is_at_last_place(const Request& me) const {
+    // Returns true if the vehicle is slow and less than 2 m upstream of its waiting position, or has passed it.
+    bool has_reached_waiting_position(const Request& me) const {
         return me.required != 0 && me.vehicle->is_slow() && waiting_position_m(me) - me.vehicle->position_m < 2.0;
     }
 

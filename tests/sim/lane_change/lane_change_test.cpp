@@ -236,8 +236,8 @@ TEST(OpeningOfGaps, AnApproachingVehicleLetsAWaitingVehicleIn) {
 }
 
 // A vehicle waits at the stop line beside a queue, for a change to the lane of this queue. The second vehicle of the
-// queue lets it in, even if it has already let in a vehicle further upstream. It does not if it has already let in
-// another vehicle that waited at the line: the two lanes take turns.
+// queue opens a gap for it, even if it has already let in a vehicle further upstream. It opens no gap if it has already
+// let in another vehicle that waited at the line: the two lanes take turns.
 TEST(OpeningOfGaps, AQueuedVehicleLetsOneVehicleInAtTheLine) {
     for (const char* const fidelity : {"full", "meso"}) {
         for (const bool at_the_line : {false, true}) {
@@ -255,14 +255,17 @@ TEST(OpeningOfGaps, AQueuedVehicleLetsOneVehicleInAtTheLine) {
             const int second = place(track, 1, line_m - space_m, 0.0, 1);
             for (int k = 2; k < 6; ++k) place(track, 1, line_m - k * space_m, 0.0, 1);
             LaneChangeMemory& memory = track.mutable_state().vehicles.lane_memory[track.slot(2, 1)];
-            (at_the_line ? memory.let_in_last_place_tick : memory.let_in_tick) = 1;
+            // Tick 1 is after the vehicle's entry tick 0, so it counts for this approach.
+            (at_the_line ? memory.let_in_waiting_tick : memory.let_in_tick) = 1;
             while (track.state().records.lane_changes.empty() && track.time_s() < 60.0) track.run(track.step_s());
             ASSERT_EQ(track.state().records.lane_changes.size(), 1U) << fidelity;
             EXPECT_EQ(track.state().records.lane_changes[0].vehicle, waiting);
             const LaneBlock& queue = track.state().blocks[2];
-            bool is_behind = false;  // true: the second vehicle of the queue is behind the vehicle that has changed
-            for (int k = 1; k < queue.count; ++k) is_behind = is_behind || track.vehicle(2, k).id == second;
-            EXPECT_EQ(is_behind, !at_the_line) << fidelity;
+            int place = 0;  // place of the second vehicle of the queue; 0: not behind the vehicle that has changed
+            for (int k = 1; k < queue.count; ++k) place = track.vehicle(2, k).id == second ? k : place;
+            EXPECT_EQ(place > 0, !at_the_line) << fidelity;
+            if (place <= 0) continue;
+            EXPECT_GT(track.state().vehicles.lane_memory[track.slot(2, place)].let_in_waiting_tick, 1) << fidelity;
         }
     }
 }

@@ -1,5 +1,5 @@
-// The usable distance of a vehicle that prepares a left turn at the intersection after the next one: the way to the
-// stop line of this turn, minus the queue that the driver sees on the target lane.
+// The usable distance of a vehicle that prepares a left turn at the intersection after the next one. It is the distance
+// to the stop line of this turn, minus the queue on the target lane before the next intersection.
 #include <gtest/gtest.h>
 
 #include <string_view>
@@ -39,17 +39,21 @@ protected:
     int left_lane = lane_named(model, "wilmersdorfer_str_east_in_0");
     int left_lane_beyond = lane_named(model, "kaiser_friedrich_str_east_in_0");
 
-    // Places a vehicle that goes straight on at the next intersection and turns left at the one after it. Returns its
-    // usable distance.
-    double place_and_measure() {
+    // Places a vehicle that goes straight on at the next intersection and turns left at the one after it.
+    UsableDistance() {
         State& state = track.mutable_state();
         track.place(before, 100.0, 10.0);
-        const int slot = state.blocks[at(before)].last();
+        const int slot = state.blocks[at(before)].first;
         VehicleRecord& record = state.vehicles.record[at(slot)];
         record.route = state.plan.route_with(model.graph.lanes[at(before)].approach, Turn::straight);
         record.following_turn = Turn::left;
         adopt_lane_route(model, state, before, slot);
         EXPECT_LT(state.vehicles.lane_memory[at(slot)].preferred_offset, 0) << "the vehicle prefers the left lane";
+    }
+
+    double usable_m() const {
+        const State& state = track.state();
+        const int slot = state.blocks[at(before)].first;
         return mandatory_change(model, state, lane_change_request(model, state, before, slot)).usable_m;
     }
 
@@ -61,16 +65,16 @@ protected:
 };
 
 TEST_F(UsableDistance, QueueBeyondTheNextIntersectionDoesNotCount) {
-    const double free_m = place_and_measure();
+    const double free_m = usable_m();
     EXPECT_GT(free_m, track.model().graph.lanes[at(left_lane_beyond)].length_m);
     place_queue(left_lane_beyond, 150.0);
-    EXPECT_EQ(place_and_measure(), free_m);
+    EXPECT_EQ(usable_m(), free_m);
 }
 
 TEST_F(UsableDistance, QueueBeforeTheNextIntersectionCounts) {
-    const double free_m = place_and_measure();
+    const double free_m = usable_m();
     place_queue(left_lane, 200.0);
-    EXPECT_NEAR(free_m - place_and_measure(), kQueue * track.state().plan.max_space_per_vehicle_m(), 1e-9);
+    EXPECT_NEAR(free_m - usable_m(), kQueue * track.state().plan.max_space_per_vehicle_m(), 1e-9);
 }
 
 }  // namespace

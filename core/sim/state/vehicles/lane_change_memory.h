@@ -10,11 +10,10 @@ namespace stopline {
 struct LaneChangeMemory {
     int change_tick = -1'000'000;  // tick of the most recent lane change
     // Ticks of the most recent mandatory lane changes of other vehicles to the place directly ahead of this vehicle.
-    // Only changes during which this vehicle was almost at rest count. let_in_last_place_tick: changes of vehicles that
-    // waited at their last place (waits_at_last_place()). let_in_tick: all others.
-    int let_in_tick = -1'000'000;
-    int let_in_last_place_tick = -1'000'000;
-    float remembered_mps = 0.0F;  // highest recent speed; falls gradually while the vehicle drives more slowly
+    // Only changes during which this vehicle was almost at rest count.
+    int let_in_waiting_tick = -1'000'000;  // of a vehicle that had waited (has_reached_waiting_position())
+    int let_in_tick = -1'000'000;          // of any other vehicle
+    float remembered_mps = 0.0F;           // highest recent speed; falls gradually while the vehicle drives more slowly
     // Speed that the vehicle would recently have gained on the left or right lane: the gain in acceleration, summed
     // over time. Older gains fade. The vehicle may change when the sum reaches LaneChangeSettings::gain_mps. Below 0:
     // the vehicle has just left that lane.
