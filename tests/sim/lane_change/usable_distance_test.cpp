@@ -31,8 +31,7 @@ int lane_named(const Model& model, std::string_view name) {
     return 0;
 }
 
-class UsableDistance : public testing::Test {
-protected:
+struct UsableDistance : testing::Test {
     Track track{berlin()};
     const Model& model = track.model();
     int before = lane_named(model, "wilmersdorfer_str_east_in_1");
