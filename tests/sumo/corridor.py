@@ -60,8 +60,8 @@ def compare(options, name, policy, sumo, folder):
 def add_run_options(parser):
     parser.add_argument("--bin", type=Path, required=True, help="folder of the Stopline programs")
     parser.add_argument("--policy", action="append", choices=list(street_runs.POPULATIONS),
-                        help="CTG: a time gap of 0.9 s; dense: CDG here, a time gap of 0.1 s in SUMO; short_gap: a time "
-                        "gap of 0.1 s in both programs")
+                        help="CTG: a time gap of 0.9 s; dense: CDG here, a time gap of 0.1 s in SUMO; short_gap: a "
+                        "time gap of 0.1 s in both programs")
     parser.add_argument("--seeds", type=int, default=3, help="number of runs of each program (default: 3)")
     parser.add_argument("--duration", type=int, default=3600, help="length of a run, s (default: 3600)")
     parser.add_argument("--warm-up", type=float, default=480, help="start of the measured window, s (default: 480)")

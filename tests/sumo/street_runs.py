@@ -76,7 +76,8 @@ def settings_of(options, policy, duration_s):
     SUMO's values is used."""
     population = POPULATIONS[policy]
     own = ["fidelity=meso", *(SHORT_GAP if policy == "short_gap" else ["meso=table2"]),
-           f"populations=[{population}]", f"measure.baseline={population}", "demand.kind=saturated", "demand.start=empty", f"duration={duration_s} s",
+           f"populations=[{population}]", f"measure.baseline={population}",
+           "demand.kind=saturated", "demand.start=empty", f"duration={duration_s} s",
            f"measure.area_margin={MARGIN_M} m", "measure.window=1 s"]
     if options.layout:
         path = Path(options.layout)

@@ -261,11 +261,11 @@ TEST(OpeningOfGaps, AQueuedVehicleLetsOneVehicleInAtTheLine) {
             ASSERT_EQ(track.state().records.lane_changes.size(), 1U) << fidelity;
             EXPECT_EQ(track.state().records.lane_changes[0].vehicle, waiting);
             const LaneBlock& queue = track.state().blocks[2];
-            int place = 0;  // place of the second vehicle of the queue; 0: not behind the vehicle that has changed
-            for (int k = 1; k < queue.count; ++k) place = track.vehicle(2, k).id == second ? k : place;
-            EXPECT_EQ(place > 0, !at_the_line) << fidelity;
-            if (place <= 0) continue;
-            EXPECT_GT(track.state().vehicles.lane_memory[track.slot(2, place)].let_in_waiting_tick, 1) << fidelity;
+            int behind = 0;  // place of the second vehicle of the queue; 0: not behind the vehicle that has changed
+            for (int k = 1; k < queue.count; ++k) behind = track.vehicle(2, k).id == second ? k : behind;
+            EXPECT_EQ(behind > 0, !at_the_line) << fidelity;
+            if (behind == 0) continue;
+            EXPECT_GT(track.state().vehicles.lane_memory[track.slot(2, behind)].let_in_waiting_tick, 1) << fidelity;
         }
     }
 }

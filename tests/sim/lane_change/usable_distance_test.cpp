@@ -8,7 +8,6 @@
 #include "scenario/build_model.h"
 #include "scenario/load_scenario.h"
 #include "sim/lane_change/lane_change.h"
-#include "sim/lane_change/preferred_lane.h"
 #include "sim/lane_change/route_choice.h"
 #include "support/track.h"
 
