@@ -12,6 +12,7 @@
 #include "scenario/build_model.h"
 #include "sim/insertion/insert_vehicles.h"
 #include "sim/perception/look_ahead.h"
+#include "sim/state/queries/gap.h"
 
 namespace stopline {
 
@@ -39,8 +40,7 @@ LeaderGap leader_gap(const Model& model, const State& state, int lane, int slot)
     const LeaderAhead ahead =
         first ? leader_ahead(state, lane, slot, model.common_driver().cacc.radar_range_m) : LeaderAhead{slot - 1, 0.0};
     if (ahead.slot < 0) return {};
-    const double rear_m = ahead.lane_start_m + v.position_m[at(ahead.slot)] - v.length_m[at(ahead.slot)];
-    return {rear_m - v.position_m[at(slot)], model.vehicles[at(v.type_of(at(ahead.slot)))].length_m};
+    return {rear_m(state, ahead) - v.position_m[at(slot)], model.vehicles[at(v.type_of(at(ahead.slot)))].length_m};
 }
 
 // Returns the net gaps between the vehicles of the first lane, m.
@@ -48,8 +48,7 @@ std::vector<double> queue_gaps(const State& state) {
     std::vector<double> gaps;
     const LaneBlock& block = state.blocks[0];
     for (std::size_t i = at(block.first) + 1; i < at(block.past_last()); ++i) {
-        gaps.push_back(state.vehicles.position_m[i - 1] - state.vehicles.length_m[i - 1] -
-                       state.vehicles.position_m[i]);
+        gaps.push_back(net_gap_m(state.vehicles, i - 1, i));
     }
     return gaps;
 }

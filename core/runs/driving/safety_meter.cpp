@@ -83,9 +83,8 @@ void SafetyMeter::add_following(const State& state, int lane, int slot) {
         if (ahead.slot < 0 || rear_is_on_merging_path(state, lane, slot, ahead.slot)) return;
     }
     const std::size_t leader = at(ahead.slot);
-    const FollowingState following{
-        ahead.lane_start_m + v.position_m[leader] - static_cast<double>(v.length_m[leader]) - v.position_m[at(slot)],
-        v.speed_mps[at(slot)], v.speed_mps[leader], static_cast<double>(v.acceleration_mps2[leader])};
+    const FollowingState following{rear_m(state, ahead) - v.position_m[at(slot)], v.speed_mps[at(slot)],
+                                   v.speed_mps[leader], static_cast<double>(v.acceleration_mps2[leader])};
     const auto add = [&](SafetyMeasure measure, double value) {
         result_.distributions[at(static_cast<int>(measure))].add(value);
     };

@@ -5,6 +5,7 @@
 #include "base/containers/index.h"
 #include "base/speed_thresholds.h"
 #include "sim/clearing/keep_clear.h"
+#include "sim/state/queries/gap.h"
 #include "sim/state/queries/received_message.h"
 
 namespace stopline {
@@ -77,8 +78,7 @@ private:
         double moving_m = 0.0;
         while (slot >= block_.first && !is_slow(slot)) moving_m += space_needed_m(v_, slot--);
         if (slot < block_.first) return;
-        result_.present_room_m =
-            v_.position_m[at(slot)] - static_cast<double>(v_.length_m[at(slot)]) - moving_m - kClearReserve_m;
+        result_.present_room_m = rear_m(v_, slot) - moving_m - kClearReserve_m;
         for (; slot >= block_.first && is_slow(slot); --slot) {
             result_.start_s += state_.clearing.policies[at(v_.policy[at(slot)])].time_gap_s;
         }

@@ -6,6 +6,7 @@
 
 #include "base/simd/arithmetic.h"
 #include "base/speed_thresholds.h"
+#include "sim/state/queries/gap.h"
 #include "sim/state/queries/stopping_distance.h"
 
 namespace stopline {
@@ -50,11 +51,11 @@ const ExitRoom& exit_room(const Model& model, State& state, int exit) {
     double moving_m = 0.0;   // space that the moving vehicles will occupy after they have stopped
     double leaving_m = 0.0;  // part of moving_m that belongs to vehicles past the stop line
     for (int slot = block.last(); slot >= block.first; --slot) {
-        const double rear_m = v.position_m[at(slot)] - static_cast<double>(v.length_m[at(slot)]);
-        if (rear_m > model.rules.sight_m) return room;
+        const double slot_rear_m = rear_m(v, slot);
+        if (slot_rear_m > model.rules.sight_m) return room;
         if (v.speed_mps[at(slot)] < kCrawlingSpeed_mps) {
             room.stopped_slot = slot;
-            room.room_m = rear_m - moving_m;
+            room.room_m = slot_rear_m - moving_m;
             break;
         }
         moving_m += space_needed_m(v, slot);

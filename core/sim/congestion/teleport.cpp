@@ -11,6 +11,7 @@
 #include "sim/perception/reset_leader.h"
 #include "sim/state/delay_log.h"
 #include "sim/state/lane_blocks.h"
+#include "sim/state/queries/gap.h"
 #include "sim/state/queries/stopping_distance.h"
 
 namespace stopline {
@@ -72,9 +73,7 @@ bool has_room_beyond_lane(const Model& model, const State& state, int lane, int 
     const RoutePosition position{route, 0, itinerary.trip, trip_edge};
     const LeaderAhead leader = leader_ahead(state, lane, front_m, position, model.common_driver().cacc.radar_range_m);
     if (leader.slot < 0) return true;
-    const double rear_m =
-        leader.lane_start_m + v.position_m[at(leader.slot)] - static_cast<double>(v.length_m[at(leader.slot)]);
-    return rear_m - front_m >= static_cast<double>(v.standstill_gap_m[at(slot)]);
+    return rear_m(state, leader) - front_m >= static_cast<double>(v.standstill_gap_m[at(slot)]);
 }
 
 // Reinserts the k-th teleported vehicle at the start of its target lane, with the rear of the vehicle just past the
@@ -104,7 +103,7 @@ bool reinsert_teleported(const Model& model, State& state, int k) {
     const double gap_m = v.standstill_gap_m[at(waiting)];
     if (block.count > 0) {
         const int last = block.last();
-        const double room_m = v.position_m[at(last)] - static_cast<double>(v.length_m[at(last)]) - front_m - gap_m;
+        const double room_m = rear_m(v, last) - front_m - gap_m;
         if (room_m < 0.0) return false;
         speed_mps = std::min(v.speed_mps[at(last)], 0.5 * room_m);
     }

@@ -9,6 +9,7 @@
 #include "base/speed_thresholds.h"
 #include "sim/perception/look_ahead.h"
 #include "sim/state/delay_log.h"
+#include "sim/state/queries/gap.h"
 
 namespace stopline {
 
@@ -16,11 +17,6 @@ namespace {
 
 constexpr double kQueueGap_m = 15.0;     // largest net gap between stopped vehicles of one queue
 constexpr double kSearchRange_m = 30.0;  // range of the search for a leader downstream of the lane
-
-double gap_to_leader_m(const VehicleArrays& v, int slot) {
-    const std::size_t leader = at(slot - 1);
-    return v.position_m[leader] - static_cast<double>(v.length_m[leader]) - v.position_m[at(slot)];
-}
 
 // Returns the lane whose block contains `slot`. The blocks are in the order of NetworkPlan::lane_order().
 int lane_of(const State& state, int slot) {
@@ -90,7 +86,7 @@ private:
 
     void wait_for_leader(StoppedQueue& queue) const {
         if (is_first_on_lane(queue)) return wait_for_leader_beyond_lane(queue);
-        const bool waits = is_stopped(queue.first - 1) && gap_to_leader_m(v_, queue.first) <= kQueueGap_m;
+        const bool waits = is_stopped(queue.first - 1) && net_gap_m(v_, queue.first - 1, queue.first) <= kQueueGap_m;
         set(queue, waits ? queue.first - 1 : -1, DelayCause::none);
     }
 
@@ -98,9 +94,7 @@ private:
         set(queue, -1, DelayCause::none);
         const LeaderAhead ahead = leader_ahead(state_, queue.lane, queue.first, kSearchRange_m);
         if (ahead.slot < 0 || !is_stopped(ahead.slot)) return;
-        const double gap_m = ahead.lane_start_m + v_.position_m[at(ahead.slot)] -
-                             static_cast<double>(v_.length_m[at(ahead.slot)]) - v_.position_m[at(queue.first)];
-        if (gap_m > kQueueGap_m) return;
+        if (rear_m(state_, ahead) - v_.position_m[at(queue.first)] > kQueueGap_m) return;
         const bool in_exit = is_exit_of(queue.lane, lane_of(state_, ahead.slot));
         set(queue, ahead.slot, in_exit ? full_exit_cause(queue) : DelayCause::none);
     }
@@ -169,7 +163,7 @@ public:
                 queue = nullptr;
                 continue;
             }
-            const bool joins = queue != nullptr && gap_to_leader_m(v_, slot) <= kQueueGap_m && slot != stop_slot &&
+            const bool joins = queue != nullptr && net_gap_m(v_, slot - 1, slot) <= kQueueGap_m && slot != stop_slot &&
                                yield_stops.find(slot) == nullptr;
             if (!joins) {
                 queue = &part_.stopped_queues.emplace_back();

@@ -11,6 +11,7 @@
 #include "sim/perception/look_ahead.h"
 #include "sim/state/lane_blocks.h"
 #include "sim/state/queries/desired_gap.h"
+#include "sim/state/queries/gap.h"
 #include "sim/state/queries/stopping_distance.h"
 
 namespace stopline {
@@ -61,7 +62,7 @@ Entry entry_on_empty_link(const Model& model, const State& state, int number, in
     if (leader.slot < 0) return {true, front_m, max_mps};
     const VehicleArrays& v = state.vehicles;
     const double leader_mps = v.speed_mps[at(leader.slot)];
-    const double gap_m = leader.lane_start_m + v.position_m[at(leader.slot)] - v.length_m[at(leader.slot)] - front_m;
+    const double gap_m = rear_m(state, leader) - front_m;
     const double braking_m = braking_distance_m(max_mps, leader_mps, driver.tables.stop.deceleration_mps2);
     const bool is_far = gap_m >= desired_gap_m(model, policy, max_mps) + braking_m;
     const double speed_mps = is_far ? max_mps : std::min(max_mps, leader_mps);
@@ -82,18 +83,18 @@ Entry entry_at(const Model& model, const State& state, int number, int policy) {
     const double min_front_m = is_link ? model.vehicle_of(policy).length_m : 0.0;
     const VehicleArrays& v = state.vehicles;
     const std::size_t last = at(block.last());
-    const double rear_m = v.position_m[last] - v.length_m[last];
+    const double last_rear_m = rear_m(v, last);
     const double max_mps =
         is_link ? std::min(max_entry_mps, max_stoppable_speed_mps(model, model.driver_of(policy), lane, min_front_m))
                 : max_entry_mps;
     const double speed_mps = std::min(max_mps, v.speed_mps[last]);
     if (model.demand.is_saturated(number)) {
-        const double position_m = rear_m - desired_gap_m(model, policy, speed_mps);
+        const double position_m = last_rear_m - desired_gap_m(model, policy, speed_mps);
         return {position_m >= min_front_m, position_m, speed_mps};
     }
     const bool forms_backlog = model.demand.forms_backlog(number);
     const double headway_s = forms_backlog ? kBacklogHeadway_s : model.demand.entry_headway_s;
-    const double gap_m = rear_m - min_front_m;
+    const double gap_m = last_rear_m - min_front_m;
     if (gap_m < desired_gap_m(model, policy, speed_mps) + speed_mps * headway_s * 0.5) return {};
     // Without arrival times, vehicles enter with the speed of the vehicle ahead, as one queue.
     if (!forms_backlog) return {true, min_front_m, speed_mps};

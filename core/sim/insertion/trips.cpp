@@ -15,6 +15,7 @@
 #include "sim/perception/reset_leader.h"
 #include "sim/state/lane_blocks.h"
 #include "sim/state/queries/desired_gap.h"
+#include "sim/state/queries/gap.h"
 #include "sim/state/queries/passage.h"
 #include "sim/state/queries/stopping_distance.h"
 
@@ -33,8 +34,7 @@ constexpr double kPositionRounding_m = 0.01;
 double last_rear_m(const State& state, int lane) {
     const LaneBlock& block = state.blocks[at(lane)];
     if (block.count == 0) return 1e6;
-    const VehicleArrays& v = state.vehicles;
-    return v.position_m[at(block.last())] - static_cast<double>(v.length_m[at(block.last())]);
+    return rear_m(state.vehicles, block.last());
 }
 
 // Returns the lane on which the vehicle of a trip enters.
@@ -141,15 +141,13 @@ EntryLeader entry_leader(const Model& model, const State& state, const Insertion
                          const RoutePosition& position) {
     const VehicleArrays& v = state.vehicles;
     if (point.index > 0) {
-        const std::size_t leader = at(state.blocks[at(point.lane)].first + point.index - 1);
-        return {v.position_m[leader] - static_cast<double>(v.length_m[leader]) - point.front_m, v.speed_mps[leader]};
+        const int leader = state.blocks[at(point.lane)].first + point.index - 1;
+        return {rear_m(v, leader) - point.front_m, v.speed_mps[at(leader)]};
     }
     const LeaderAhead leader =
         leader_ahead(state, point.lane, point.front_m, position, model.common_driver().cacc.radar_range_m);
     if (leader.slot < 0) return {};
-    const double rear_m =
-        leader.lane_start_m + v.position_m[at(leader.slot)] - static_cast<double>(v.length_m[at(leader.slot)]);
-    return {rear_m - point.front_m, v.speed_mps[at(leader.slot)]};
+    return {rear_m(state, leader) - point.front_m, v.speed_mps[at(leader.slot)]};
 }
 
 // Returns true if the follower keeps a sufficient gap to the new vehicle: at least its desired gap plus the distance in

@@ -7,6 +7,7 @@
 #include "base/simd/arithmetic.h"
 #include "base/speed_thresholds.h"
 #include "sim/perception/look_ahead.h"
+#include "sim/state/queries/gap.h"
 
 namespace stopline {
 
@@ -43,10 +44,9 @@ double earliest_arrival_s(double distance_m, double speed_mps, double accelerati
 bool is_blocked_by_leader(const State& state, int slot) {
     const VehicleArrays& v = state.vehicles;
     const std::size_t i = at(slot);
-    const double gap_m = v.position_m[i - 1] - v.length_m[i - 1] - v.position_m[i];
     const double close_m = std::max(kCloseBehind_m, v.standstill_gap_m[i] + kNearStandstillGap_m);
     return v.record[i].leader_id >= 0 && v.speed_mps[i] < kCrawlingSpeed_mps &&
-           v.speed_mps[i - 1] < kCrawlingSpeed_mps && gap_m < close_m;
+           v.speed_mps[i - 1] < kCrawlingSpeed_mps && net_gap_m(v, i - 1, i) < close_m;
 }
 
 double queue_look_ahead_m(const State& state, int slot) {

@@ -11,6 +11,7 @@
 #include "sim/perception/lane_gaps.h"
 #include "sim/state/lane_blocks.h"
 #include "sim/state/queries/desired_gap.h"
+#include "sim/state/queries/gap.h"
 #include "sim/state/queries/received_message.h"
 #include "sim/state/queries/stopping_distance.h"
 
@@ -70,7 +71,6 @@ public:
 
 private:
     double length_m(int slot) const { return v_.length_m[at(slot)]; }
-    double rear_m(int slot) const { return v_.position_m[at(slot)] - length_m(slot); }
     bool cooperates(int slot) const { return cooperation_.cooperates[at(v_.policy[at(slot)])] != 0; }
 
     int target_of(const MandatoryChange& change) const {
@@ -170,8 +170,8 @@ private:
         place.lead_mps = has_leader ? v_.speed_mps[at(place.leader)] : me.speed_mps;
         const double lag_m = desired_gap_m(model_, v_.policy[at(opener)], place.lead_mps);
         const double lead_m = desired_gap_m(model_, me.policy, place.lead_mps);
-        place.gap_m = has_leader ? rear_m(place.leader) - v_.position_m[at(opener)] : kNoLeader_m;
-        place.spare_m = has_leader ? rear_m(place.leader) - lead_m - front_m : kNoLeader_m;
+        place.gap_m = has_leader ? net_gap_m(v_, place.leader, opener) : kNoLeader_m;
+        place.spare_m = has_leader ? rear_m(v_, place.leader) - lead_m - front_m : kNoLeader_m;
         const double room_m = lead_m + me.length_m + lag_m;
         // A requester beside the opener does not fall back. So the opener falls back until it is behind the requester.
         place.missing_m = room_m - place.gap_m;
@@ -330,7 +330,7 @@ private:
         extra_m = place.extra_m;
         int followers = 1;
         while (slot + followers < there.past_last() &&
-               rear_m(slot + followers - 1) - v_.position_m[at(slot + followers)] <
+               net_gap_m(v_, slot + followers - 1, slot + followers) <
                    desired_gap_m(model_, v_.policy[at(slot + followers)], speed_mps) + missing_m)
             ++followers;
         return followers * missing_m / std::max(speed_mps, kDischarge_mps);

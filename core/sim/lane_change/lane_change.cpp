@@ -15,6 +15,7 @@
 #include "sim/perception/reset_leader.h"
 #include "sim/state/lane_blocks.h"
 #include "sim/state/queries/desired_gap.h"
+#include "sim/state/queries/gap.h"
 #include "sim/state/queries/stopping_distance.h"
 #include "sim/state/state.h"
 
@@ -251,12 +252,11 @@ private:
         const VehicleArrays& v = state_.vehicles;
         LaneNeighbours here;
         if (me_.slot > block.first) {
-            here.leader = {
-                me_.slot - 1,
-                v.position_m[at(me_.slot - 1)] - static_cast<double>(v.length_m[at(me_.slot - 1)]) - me_.front_m,
-                v.speed_mps[at(me_.slot - 1)], v.policy[at(me_.slot - 1)]};
+            here.leader = {me_.slot - 1, rear_m(v, me_.slot - 1) - me_.front_m, v.speed_mps[at(me_.slot - 1)],
+                           v.policy[at(me_.slot - 1)]};
         } else {
-            here.leader = leader_beyond_lane();
+            const double range_m = model_.common_driver().cacc.radar_range_m;
+            here.leader = neighbour_beyond_lane(v, leader_ahead(state_, me_.lane, me_.slot, range_m), me_.front_m);
         }
         if (me_.slot < block.last()) {
             here.follower = {me_.slot + 1, me_.front_m - me_.length_m - v.position_m[at(me_.slot + 1)],
@@ -284,15 +284,6 @@ private:
         if (chosen < 0) return false;
         change_to(chosen, chosen_neighbours, false);
         return true;
-    }
-
-    Neighbour leader_beyond_lane() const {
-        const VehicleArrays& v = state_.vehicles;
-        const LeaderAhead leader = leader_ahead(state_, me_.lane, me_.slot, model_.common_driver().cacc.radar_range_m);
-        if (leader.slot < 0) return {};
-        const double rear_m = v.position_m[at(leader.slot)] - static_cast<double>(v.length_m[at(leader.slot)]);
-        return {leader.slot, leader.lane_start_m + rear_m - me_.front_m, v.speed_mps[at(leader.slot)],
-                v.policy[at(leader.slot)]};
     }
 
     void change_to(int other, const LaneNeighbours& there, bool for_route) {

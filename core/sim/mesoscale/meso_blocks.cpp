@@ -14,6 +14,7 @@
 #include "driver/human.h"
 #include "sim/mesoscale/meso_dynamics.h"
 #include "sim/performance/prefetch.h"
+#include "sim/state/queries/gap.h"
 
 namespace stopline {
 
@@ -75,7 +76,7 @@ int relay_start(const Model& model, const State& state, int lane, StandingQueue&
     while (receivers < model.start_relay_vehicles && queue.first + receivers < queue.end) {
         const std::size_t i = at(block.first + queue.first + receivers);
         const FollowingModel& following = model.following[at(v.policy[i])];
-        const double gap_m = v.position_m[i - 1] - static_cast<double>(v.length_m[i - 1]) - v.position_m[i];
+        const double gap_m = net_gap_m(v, i - 1, i);
         if (!following.relays_starts() || gap_m > following.equilibrium_gap_m(0.0) + kClosedUp_m) break;
         if (!receives_start(model, v, state.tick, gap_m, density_vpkm, i)) break;
         messages.push_back({static_cast<int>(i), relayed_mps2});
@@ -180,7 +181,7 @@ private:
             const std::size_t i = at(slot);
             const DriverPlan& driver = model_.driver_of(v_.policy[i]);
             if (!driver.is_human) continue;
-            const double gap_m = v_.position_m[i - 1] - static_cast<double>(v_.length_m[i - 1]) - v_.position_m[i];
+            const double gap_m = net_gap_m(v_, i - 1, i);
             v_.start_ticks[i] = next_start_ticks(v_.start_ticks[i], v_.speed_mps[i], v_.speed_mps[i - 1],
                                                  gap_m - static_cast<double>(v_.standstill_gap_m[i]));
             if (sleeps && slot == block_.first) continue;

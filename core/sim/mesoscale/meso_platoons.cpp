@@ -5,6 +5,7 @@
 #include "base/containers/index.h"
 #include "base/speed_thresholds.h"
 #include "sim/state/queries/desired_gap.h"
+#include "sim/state/queries/gap.h"
 #include "sim/state/queries/platoon_interval.h"
 #include "v2v/fallback.h"
 #include "v2v/platoon_place.h"
@@ -12,10 +13,6 @@
 namespace stopline {
 
 namespace {
-
-double net_gap_m(const VehicleArrays& v, std::size_t i) {
-    return v.position_m[i - 1] - static_cast<double>(v.length_m[i - 1]) - v.position_m[i];
-}
 
 // Returns true if platoon leaders have an acceleration of their own. Only then does the mesoscale model decide which
 // vehicles are platoon leaders (VehicleArrays::is_platoon_leader).
@@ -30,7 +27,7 @@ PlatoonPlace next_place(const Model& model, const VehicleArrays& v, std::size_t 
     const PlatoonPlace own{platoon.place[i], led_mini_platoon && leader_id == platoon.leader_id[i]};
     const int leader_place = platoon.place[i - 1];
     const auto follows = [&] {
-        const double excess_m = net_gap_m(v, i) - desired_gap_m(model, v.policy[i], v.speed_mps[i]);
+        const double excess_m = net_gap_m(v, i - 1, i) - desired_gap_m(model, v.policy[i], v.speed_mps[i]);
         return is_close_enough(excess_m, own.vehicles_ahead > 0 || own.leads_mini_platoon);
     };
     const bool leads = has_own_acceleration(model) && v.is_platoon_leader[i] != 0.0F;
@@ -47,7 +44,7 @@ double time_gap_speed_mps(const Model& model, const VehicleArrays& v, std::size_
     const CaccSettings& cacc = model.driver_of(v.policy[i]).tables.cacc;
     const double dt = model.step_s;
     const double lambda_1ps = cacc.feedback_kp_1ps2 / cacc.feedback_kd_1ps;
-    const double spare_m = net_gap_m(v, i) - model.following[at(v.policy[i])].equilibrium_gap_m(0.0);
+    const double spare_m = net_gap_m(v, i - 1, i) - model.following[at(v.policy[i])].equilibrium_gap_m(0.0);
     const double leader_mps = std::max(v.speed_mps[i - 1] + static_cast<double>(v.acceleration_mps2[i - 1]) * dt, 0.0);
     const double next_mps = (gap.time_gap_s * v.speed_mps[i] + dt * (leader_mps + lambda_1ps * spare_m)) /
                             (gap.time_gap_s + dt * (1.0 + gap.rate + lambda_1ps * gap.time_gap_s));

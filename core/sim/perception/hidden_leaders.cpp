@@ -11,6 +11,7 @@
 #include "driver/acceleration_laws.h"
 #include "sim/perception/look_ahead.h"
 #include "sim/state/queries/desired_gap.h"
+#include "sim/state/queries/gap.h"
 #include "sim/state/state.h"
 
 namespace stopline {
@@ -23,12 +24,10 @@ void add_demand(const Model& model, const State& state, int lane, int slot, cons
                 Partition& part) {
     const VehicleArrays& v = state.vehicles;
     const double speed_mps = v.speed_mps[at(slot)];
-    double rear_m = hidden.lane_start_m;
-    if (!rear_is_on_merging_path(state, lane, slot, hidden.slot)) {
-        rear_m += v.position_m[at(hidden.slot)] - static_cast<double>(v.length_m[at(hidden.slot)]);
-    }
+    double hidden_rear_m = hidden.lane_start_m;
+    if (!rear_is_on_merging_path(state, lane, slot, hidden.slot)) hidden_rear_m += rear_m(v, hidden.slot);
     LeaderView<double> p{};
-    p.gap_m = rear_m - v.position_m[at(slot)];
+    p.gap_m = hidden_rear_m - v.position_m[at(slot)];
     const double standstill_m = v.standstill_gap_m[at(slot)];
     const DriverTables& driver = model.driver_of(v.policy[at(slot)]).tables;
     if (p.gap_m > stopping_distance_m(driver, speed_mps) + standstill_m) return;

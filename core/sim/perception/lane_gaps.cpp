@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "base/containers/index.h"
-#include "sim/perception/look_ahead.h"
 #include "sim/state/queries/desired_gap.h"
+#include "sim/state/queries/gap.h"
 #include "sim/state/queries/stopping_distance.h"
 
 namespace stopline {
@@ -17,18 +17,11 @@ Neighbour neighbour(const VehicleArrays& v, int slot, double gap_m) {
     return {slot, gap_m, v.speed_mps[at(slot)], v.policy[at(slot)]};
 }
 
-double rear_m(const VehicleArrays& v, int slot) {
-    return v.position_m[at(slot)] - static_cast<double>(v.length_m[at(slot)]);
-}
-
 // Returns the leader beyond the end of the lane: the nearest vehicle on `route`, or on any next lane if `route` is -1.
 Neighbour leader_beyond_lane(const State& state, int lane, double front_m, int route) {
     const VehicleArrays& v = state.vehicles;
-    if (route >= 0) {
-        const LeaderAhead leader = leader_ahead(state, lane, front_m, route, 0, kLookAhead_m);
-        return leader.slot < 0 ? Neighbour{}
-                               : neighbour(v, leader.slot, leader.lane_start_m + rear_m(v, leader.slot) - front_m);
-    }
+    if (route >= 0)
+        return neighbour_beyond_lane(v, leader_ahead(state, lane, front_m, route, 0, kLookAhead_m), front_m);
     Neighbour nearest;
     for (const int next : state.plan.next(lane)) {
         const LaneBlock& block = state.blocks[at(next)];
@@ -66,6 +59,11 @@ Neighbour follower_upstream(const Model& model, const State& state, int lane, do
 }
 
 }  // namespace
+
+Neighbour neighbour_beyond_lane(const VehicleArrays& v, const LeaderAhead& leader, double front_m) {
+    if (leader.slot < 0) return {};
+    return neighbour(v, leader.slot, leader.lane_start_m + rear_m(v, leader.slot) - front_m);
+}
 
 int vehicles_ahead(const State& state, int lane, double front_m) {
     const LaneBlock& block = state.blocks[at(lane)];

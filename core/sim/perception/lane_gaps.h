@@ -1,6 +1,7 @@
 // Finds the lead gap and the lag gap at a position on a lane. Computes the gaps that a lane change requires.
 #pragma once
 
+#include "sim/perception/look_ahead.h"
 #include "sim/state/model.h"
 #include "sim/state/state.h"
 
@@ -28,6 +29,9 @@ struct LaneNeighbours {
 // connections come.
 LaneNeighbours neighbours_at(const Model& model, const State& state, int lane, double front_m, double length_m,
                              int route);
+
+// Returns the leader beyond the end of a lane as a neighbour of a vehicle that has its front at `front_m` on this lane.
+Neighbour neighbour_beyond_lane(const VehicleArrays& vehicles, const LeaderAhead& leader, double front_m);
 
 // Returns how many vehicles of a lane have their front at `front_m` or further downstream.
 int vehicles_ahead(const State& state, int lane, double front_m);

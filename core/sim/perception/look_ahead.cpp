@@ -8,6 +8,7 @@
 #include "sim/perception/hidden_leaders.h"
 #include "sim/performance/prefetch.h"
 #include "sim/state/events.h"
+#include "sim/state/queries/gap.h"
 #include "sim/state/queries/platoon_interval.h"
 
 namespace stopline {
@@ -126,7 +127,6 @@ bool rear_may_be_off_route(const State& state, std::span<const int> route, const
 // step.
 STOPLINE_INLINE LeaderAhead ahead_on_route(const State& state, int lane, double position_m, int route_number, int index,
                                            double range_m, LeaderAhead* hidden = nullptr) {
-    const VehicleArrays& v = state.vehicles;
     const LanePlan& here = state.plan.lane(lane);
     if (!here.branches && here.length_m - position_m > range_m) return {};
     LeaderAhead diverging_leader;
@@ -145,10 +145,10 @@ STOPLINE_INLINE LeaderAhead ahead_on_route(const State& state, int lane, double 
     }
     const LeaderAhead own = last_vehicle_on(state, route, at(index) + 1, here.length_m, position_m, range_m);
     if (own.slot >= 0) {
-        double rear_m = own.lane_start_m + v.position_m[at(own.slot)] - v.length_m[at(own.slot)];
-        if (rear_m < own.lane_start_m && rear_may_be_off_route(state, route, own, diverging_leader))
-            rear_m = own.lane_start_m;
-        if (rear_m <= beside_rear_m) return own;
+        double own_rear_m = rear_m(state, own);
+        if (own_rear_m < own.lane_start_m && rear_may_be_off_route(state, route, own, diverging_leader))
+            own_rear_m = own.lane_start_m;
+        if (own_rear_m <= beside_rear_m) return own;
         if (hidden != nullptr && own.slot != diverging_leader.slot) *hidden = own;
     }
     return diverging_leader;
@@ -237,8 +237,8 @@ void copy_platoon(bool has_platoon_leaders, VehicleArrays& v, std::size_t sentin
 bool rear_is_on_merging_path(const State& state, int lane, int slot, int ahead) {
     const VehicleArrays& v = state.vehicles;
     const VehicleRecord& leader = v.record[at(ahead)];
-    double rear_m = v.position_m[at(ahead)] - static_cast<double>(v.length_m[at(ahead)]);
-    if (rear_m >= 0.0) return false;
+    double leader_rear_m = rear_m(v, ahead);
+    if (leader_rear_m >= 0.0) return false;
     const std::span<const int> route = state.plan.route(v.record[at(slot)].route);
     const auto is_on_route = [&](int other_lane) {
         return std::find(route.begin(), route.end(), other_lane) != route.end();
@@ -247,8 +247,8 @@ bool rear_is_on_merging_path(const State& state, int lane, int slot, int ahead) 
         return false;  // the vehicle in slot `ahead` came over this lane, so it does not merge
     if (leader.previous_lane >= 0 && !is_on_route(leader.previous_lane)) return true;
     // If the previous lane is shorter than the vehicle, the rear may still be on the lane before the previous lane.
-    if (leader.previous_lane >= 0) rear_m += state.plan.lane(leader.previous_lane).length_m;
-    return rear_m < 0.0 && leader.second_previous_lane >= 0 && !is_on_route(leader.second_previous_lane);
+    if (leader.previous_lane >= 0) leader_rear_m += state.plan.lane(leader.previous_lane).length_m;
+    return leader_rear_m < 0.0 && leader.second_previous_lane >= 0 && !is_on_route(leader.second_previous_lane);
 }
 
 void find_leaders_beyond_lanes(const Model& model, const State& state, VehicleArrays& v, Partition& part) {
@@ -274,9 +274,9 @@ void find_leaders_beyond_lanes(const Model& model, const State& state, VehicleAr
             has_leader && reach_m < v.length_m[sentinel] && rear_is_on_merging_path(state, lane, head, ahead.slot)) {
             v.length_m[sentinel] = static_cast<float>(std::max(reach_m - kTouch_m, 0.0));
         }
-        const double rear_m = v.position_m[sentinel] - v.length_m[sentinel];
+        const double gap_m = net_gap_m(v, sentinel, head);
         // In the mesoscale mode the kernels count the overlaps with leaders beyond the lane.
-        if (!model.meso && has_leader && rear_m < v.position_m[at(head)]) {
+        if (!model.meso && has_leader && gap_m < 0.0) {
             ++part.violations.overlaps;
             part.violations.record(
                 {model.time_s(state.tick), Violation::Kind::overlap, lane, v.id[at(head)], v.id[leader_slot]});
@@ -296,7 +296,6 @@ void find_leaders_beyond_lanes(const Model& model, const State& state, VehicleAr
         // Without a leader, the gap is that to a position far ahead (kFree_m).
         v.record[at(head)].leader_id = id;
         v.is_platoon_leader[at(head)] = 1.0F;
-        const double gap_m = rear_m - v.position_m[at(head)];
         v.reset_radar(head, gap_m, v.speed_mps[at(head)] - v.speed_mps[sentinel]);
     }
 }

@@ -1,6 +1,7 @@
 // Finds the leader of a vehicle beyond the end of its lane.
 #pragma once
 
+#include "base/containers/index.h"
 #include "sim/state/model.h"
 #include "sim/state/state.h"
 
@@ -11,6 +12,13 @@ struct LeaderAhead {
     int slot = -1;              // slot of the leader; -1: none within the range
     double lane_start_m = 0.0;  // start of the leader's lane, from the start of the observer's lane
 };
+
+// Returns the position of the rear of a leader beyond the lane, m from the start of the observer's lane. Precondition:
+// there is a leader.
+inline double rear_m(const State& state, const LeaderAhead& leader) {
+    const VehicleArrays& v = state.vehicles;
+    return leader.lane_start_m + v.position_m[at(leader.slot)] - static_cast<double>(v.length_m[at(leader.slot)]);
+}
 
 // The position of a vehicle on its route and on its trip. With a trip, the search for the leader continues beyond the
 // end of the route, on the later edges of the trip.

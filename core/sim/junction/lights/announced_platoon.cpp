@@ -8,6 +8,7 @@
 #include "base/speed_thresholds.h"
 #include "sim/clearing/arrival_forecast.h"
 #include "sim/state/queries/desired_gap.h"
+#include "sim/state/queries/gap.h"
 #include "sim/state/queries/stopping_distance.h"
 #include "v2v/platoon_place.h"
 
@@ -25,9 +26,8 @@ bool leads_mini_platoon(const VehicleArrays& v, int slot) {
 bool is_in_platoon_of_leader(const Model& model, const VehicleArrays& v, int slot) {
     const int policy = v.policy[at(slot)];
     if (model.driver_of(policy).is_human || leads_mini_platoon(v, slot)) return false;
-    const double gap_m =
-        v.position_m[at(slot - 1)] - static_cast<double>(v.length_m[at(slot - 1)]) - v.position_m[at(slot)];
-    return is_close_enough(gap_m - desired_gap_m(model, policy, v.speed_mps[at(slot)]), false);
+    const double excess_m = net_gap_m(v, slot - 1, slot) - desired_gap_m(model, policy, v.speed_mps[at(slot)]);
+    return is_close_enough(excess_m, false);
 }
 
 // Returns true if the vehicle can stop comfortably before the line.

@@ -2,6 +2,7 @@
 
 #include "base/containers/index.h"
 #include "sim/state/events.h"
+#include "sim/state/queries/gap.h"
 
 namespace stopline {
 
@@ -25,7 +26,7 @@ void record_first_overlap(const Model& model, const State& state, Partition& par
         const LaneBlock& block = state.blocks[at(lane)];
         for (int slot = block.first; slot < block.past_last(); ++slot) {
             const auto i = at(slot);
-            if (v.position_m[i] <= v.position_m[i - 1] - static_cast<double>(v.length_m[i - 1])) continue;
+            if (v.position_m[i] <= rear_m(v, i - 1)) continue;
             const int leader_id = slot > block.first ? v.id[i - 1] : v.record[i].leader_id;
             part.violations.record({model.time_s(state.tick + 1), Violation::Kind::overlap, lane, v.id[i], leader_id});
         }
