@@ -211,7 +211,7 @@ TEST_F(DelayCauses, YieldingAtTheNextIntersectionDoesNotCount) {
     state().vehicles.length_m[at(slot - 1)] = state().vehicles.length_m[leader];
     state().vehicles.speed_mps[at(slot - 1)] = 0.0;
     const JunctionOccupant occupant{slot, front_m, 0.0, 0};
-    for (const int yield_tick : {-2, static_cast<int>(state().tick)}) {
+    for (const int yield_tick : {kNeverYielded_tick, static_cast<int>(state().tick)}) {
         state().vehicles.record[leader].yield_tick = yield_tick;
         EXPECT_FALSE(is_behind_yielding_vehicle(state(), connection, occupant)) << yield_tick;
     }

@@ -7,6 +7,7 @@
 #include "sim/clearing/keep_clear.h"
 #include "sim/state/queries/gap.h"
 #include "sim/state/queries/received_message.h"
+#include "sim/state/queries/vehicle_place.h"
 
 namespace stopline {
 
@@ -116,15 +117,6 @@ private:
 
 bool has_v2v(const State& state, int slot) {
     return state.clearing.policies[at(state.vehicles.policy[at(slot)])].has_v2v;
-}
-
-int slot_on_lane(const State& state, int lane, int id) {
-    if (id < 0) return -1;
-    const LaneBlock& block = state.blocks[at(lane)];
-    for (int slot = block.first; slot < block.past_last(); ++slot) {
-        if (state.vehicles.id[at(slot)] == id) return slot;
-    }
-    return -1;
 }
 
 int admitted_end(const State& state, int lane) {

@@ -11,9 +11,6 @@ namespace stopline {
 // keep-clear rule.
 bool has_v2v(const State& state, int slot);
 
-// Returns the slot of the vehicle with this id on a lane; -1: none.
-int slot_on_lane(const State& state, int lane, int id);
-
 // Returns the slot after the last admitted vehicle of a lane. Vehicles past the stop line count as admitted.
 int admitted_end(const State& state, int lane);
 

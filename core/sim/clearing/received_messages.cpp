@@ -6,6 +6,7 @@
 #include "sim/clearing/exit_booking.h"
 #include "sim/clearing/keep_clear.h"
 #include "sim/state/queries/received_message.h"
+#include "sim/state/queries/vehicle_place.h"
 
 namespace stopline {
 

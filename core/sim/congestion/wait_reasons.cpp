@@ -10,6 +10,7 @@
 #include "sim/perception/look_ahead.h"
 #include "sim/state/delay_log.h"
 #include "sim/state/queries/gap.h"
+#include "sim/state/queries/vehicle_place.h"
 
 namespace stopline {
 
@@ -19,15 +20,15 @@ constexpr double kQueueGap_m = 15.0;     // largest net gap between stopped vehi
 constexpr double kSearchRange_m = 30.0;  // range of the search for a leader downstream of the lane
 
 // Returns the lane whose block contains `slot`. The blocks are in the order of NetworkPlan::lane_order().
-int lane_of(const State& state, int slot) {
+int lane_with_slot(const State& state, int slot) {
     const LargeArray<int>& lanes = state.plan.lane_order();
     const auto begins_later = [&](int value, int lane) { return value < state.blocks[at(lane)].begin; };
     return *std::prev(std::upper_bound(lanes.begin(), lanes.end(), slot, begins_later));
 }
 
-class WaitSearch {
+class WaitReasonSearch {
 public:
-    WaitSearch(const Model& model, const State& state, DelayWatch& watch)
+    WaitReasonSearch(const Model& model, const State& state, DelayWatch& watch)
         : model_(model), state_(state), v_(state.vehicles), watch_(watch) {}
 
     void find(StoppedQueue& queue) {
@@ -95,23 +96,20 @@ private:
         const LeaderAhead ahead = leader_ahead(state_, queue.lane, queue.first, kSearchRange_m);
         if (ahead.slot < 0 || !is_stopped(ahead.slot)) return;
         if (rear_m(state_, ahead) - v_.position_m[at(queue.first)] > kQueueGap_m) return;
-        const bool in_exit = is_exit_of(queue.lane, lane_of(state_, ahead.slot));
+        const bool in_exit = is_exit_of(queue.lane, lane_with_slot(state_, ahead.slot));
         set(queue, ahead.slot, in_exit ? full_exit_cause(queue) : DelayCause::none);
     }
 
     int lane_of_blocker(const StoppedQueue& queue) const {
-        return state_.blocks[at(queue.lane)].has(queue.blocker) ? queue.lane : lane_of(state_, queue.blocker);
+        return state_.blocks[at(queue.lane)].has(queue.blocker) ? queue.lane : lane_with_slot(state_, queue.blocker);
     }
 
     // Returns the slot of the vehicle that blocked `vehicle` during the previous green, if this blocker has not moved
     // since; else -1.
     int find_unmoved_blocker(const LastBlocker& last, int vehicle) const {
         if (last.vehicle != vehicle) return -1;
-        const LaneBlock& block = state_.blocks[at(last.blocker_lane)];
-        for (int slot = block.first; slot < block.past_last(); ++slot) {
-            if (v_.id[at(slot)] == last.blocker) return v_.stopped_since[at(slot)] <= last.tick ? slot : -1;
-        }
-        return -1;
+        const int slot = slot_on_lane(state_, last.blocker_lane, last.blocker);
+        return slot >= 0 && v_.stopped_since[at(slot)] <= last.tick ? slot : -1;
     }
 
     // Returns true if `lane` is a connection to the lane `exit`, or the approach lane of such a connection.
@@ -196,7 +194,7 @@ void find_stopped_vehicles(const Model& model, State& state, Partition& part) {
 }
 
 void find_wait_reasons(const Model& model, const State& state, DelayWatch& watch, Partition& part) {
-    WaitSearch search(model, state, watch);
+    WaitReasonSearch search(model, state, watch);
     for (StoppedQueue& queue : part.stopped_queues) search.find(queue);
 }
 

@@ -8,6 +8,7 @@
 #include "base/speed_thresholds.h"
 #include "sim/perception/look_ahead.h"
 #include "sim/state/queries/gap.h"
+#include "sim/state/queries/vehicle_place.h"
 
 namespace stopline {
 
@@ -20,8 +21,7 @@ constexpr double kNearStandstillGap_m = 3.0;
 }  // namespace
 
 bool is_yielding(const State& state, int slot) {
-    const VehicleArrays& v = state.vehicles;
-    return v.record[at(slot)].yield_tick >= state.tick - 1 && v.speed_mps[at(slot)] < kCrawlingSpeed_mps;
+    return had_to_wait(state, slot) && state.vehicles.speed_mps[at(slot)] < kCrawlingSpeed_mps;
 }
 
 bool is_yielding_before(const State& state, int slot, double area_m) {
@@ -60,19 +60,14 @@ namespace {
 // Returns true if the vehicle is on a lane of the intersection to which `lane` belongs. The yielding state of a vehicle
 // at another intersection cannot be used, because another thread may or may not have updated it yet.
 bool is_at_same_intersection(const State& state, int lane, int slot) {
-    const VehicleRecord& record = state.vehicles.record[at(slot)];
-    const int own_lane = state.plan.route(record.route)[at(record.route_index)];
-    return state.plan.intersection_of(own_lane) == state.plan.intersection_of(lane);
+    return state.plan.intersection_of(lane_of(state, slot)) == state.plan.intersection_of(lane);
 }
 
 }  // namespace
 
 bool is_behind_yielding_vehicle(const State& state, int lane, const JunctionOccupant& occupant) {
     constexpr int kMaxQueue = 8;  // longest queue that is searched, in vehicles
-    const auto is_on = [&](int on, int slot) {
-        const LaneBlock& block = state.blocks[at(on)];
-        return slot >= block.first && slot < block.past_last();
-    };
+    const auto is_on = [&](int on_lane, int vehicle) { return state.blocks[at(on_lane)].has(vehicle); };
     int slot = occupant.slot;
     int current_lane = is_on(lane, slot) ? lane : state.plan.lane(lane).origin;
     if (!is_on(current_lane, slot)) return false;  // the front is on the exit lane
@@ -106,10 +101,10 @@ int vehicle_stopping_at_signal(const State& state, int lane, int connection) {
 
 // Returns the slot of a vehicle that is held at rest at the stop line of `lane`; -1: none. Vehicles that must yield to
 // the held vehicle may go first. Such a vehicle is refused by cooperative clearing, and announces this by V2V. In
-// imported networks (only their demand has trips) it can also be held by the keep-clear rule.
+// imported networks it can also be held by the keep-clear rule.
 int vehicle_held_at_rest(const Model& model, const State& state, int lane) {
     const KeepClearHold& hold = state.stop_lines.held_at_green[at(lane)];
-    if (!hold.is_refusal && (model.demand.trips.empty() || hold.blocker < 0)) return -1;
+    if (!hold.is_refusal && (!model.is_imported() || hold.blocker < 0)) return -1;
     const int held = state.stop_lines.stop_slot[at(lane)];
     return held >= 0 && state.vehicles.speed_mps[at(held)] < kCrawlingSpeed_mps ? held : -1;
 }

@@ -2,6 +2,7 @@
 // or are in a queue. All positions and speeds are those at the beginning of the step.
 #pragma once
 
+#include "base/containers/index.h"
 #include "base/speed_thresholds.h"
 #include "sim/state/model.h"
 #include "sim/state/state.h"
@@ -10,8 +11,12 @@ namespace stopline {
 
 inline constexpr double kNoArrival_s = 1e9;
 
-// Returns true if the vehicle is slower than kCrawlingSpeed_mps (1 m/s) and had to wait, in this step or the previous
-// step, before a conflict area or at a stop sign. A yielding vehicle is not expected to arrive soon, because it lets
+// Returns true if the vehicle had to wait before a conflict area or at a stop sign, in this step or the previous step.
+inline bool had_to_wait(const State& state, int slot) {
+    return state.vehicles.record[at(slot)].yield_tick >= state.tick - 1;
+}
+
+// Returns true if the vehicle had to wait (had_to_wait()) and is slower than kCrawlingSpeed_mps (1 m/s). A yielding vehicle is not expected to arrive soon, because it lets
 // other vehicles go first.
 bool is_yielding(const State& state, int slot);
 

@@ -10,6 +10,7 @@
 #include "sim/junction/arrivals.h"
 #include "sim/perception/look_ahead.h"
 #include "sim/state/queries/stopping_distance.h"
+#include "sim/state/queries/vehicle_place.h"
 
 namespace stopline {
 
@@ -72,8 +73,7 @@ private:
     // Returns true if the vehicle already brakes for the area, or for a position further upstream. Such a vehicle can
     // wait before the area, although its stop can deviate slightly from the planned one.
     bool brakes_for(int slot, double area_m) const {
-        const VehicleRecord& record = arrays_.record[at(slot)];
-        return record.yield_tick >= state_.tick - 1 && record.yield_position_m <= static_cast<float>(area_m);
+        return had_to_wait(state_, slot) && arrays_.record[at(slot)].yield_position_m <= static_cast<float>(area_m);
     }
 
     // Returns true if the vehicle can stop before a conflict area at this distance. Only a crawling vehicle may use the
@@ -202,7 +202,7 @@ private:
     // Returns the slot of the crawling leader of a queued vehicle; -1: none.
     int queue_leader(int slot) const {
         if (!is_blocked_by_leader(state_, slot)) return -1;
-        const int lane = lane_of(slot);
+        const int lane = lane_of(state_, slot);
         if (slot != state_.blocks[at(lane)].first) return slot - 1;
         return leader_ahead(state_, lane, slot, queue_look_ahead_m(state_, slot)).slot;
     }
@@ -220,13 +220,8 @@ private:
         visit(ChainLink{leader, link.from_m + behind_m, link.to_m + behind_m});
     }
 
-    int lane_of(int slot) const {
-        const VehicleRecord& record = arrays_.record[at(slot)];
-        return state_.plan.route(record.route)[at(record.route_index)];
-    }
-
     OnConnection on_connection(int slot) const {
-        const int lane = lane_of(slot);
+        const int lane = lane_of(state_, slot);
         if (state_.plan.intersection_of(lane) != intersection_) return {};
         if (state_.plan.lane(lane).origin >= 0) return {lane, arrays_.position_m[at(slot)]};
         const int next = arrays_.next_lane[at(slot)];

@@ -8,6 +8,7 @@
 #include "base/speed_thresholds.h"
 #include "sim/junction/arrivals.h"
 #include "sim/perception/look_ahead.h"
+#include "sim/state/queries/vehicle_place.h"
 
 namespace stopline {
 
@@ -56,17 +57,12 @@ public:
 private:
     std::pair<int, int> rank(int slot) const { return {v_.record[at(slot)].wait_since_tick, v_.id[at(slot)]}; }
 
-    int lane_of(int slot) const {
-        const VehicleRecord& record = v_.record[at(slot)];
-        return state_.plan.route(record.route)[at(record.route_index)];
-    }
-
     // Returns the vehicle in `slot` and its blocker: the blocker of its yield stop (YieldStop), else a stopped leader
     // close ahead. The result has no blocker if neither exists, or if the vehicle moves. It also has no blocker if the
     // vehicle is not at intersection_, because the decisions of this step for another intersection may not be complete
     // yet.
     WaitingVehicle waiting(int slot) const {
-        const int lane = lane_of(slot);
+        const int lane = lane_of(state_, slot);
         if (v_.speed_mps[at(slot)] >= kCrawlingSpeed_mps || state_.plan.intersection_of(lane) != intersection_)
             return {slot};
         if (const YieldStop* const stop = yield_stops_of(state_, lane).find(slot);
@@ -85,7 +81,7 @@ private:
     bool is_in_path(int lane, int slot, int blocker) const {
         const int connection = state_.plan.lane(lane).origin >= 0 ? lane : v_.next_lane[at(slot)];
         if (connection < 0) return true;
-        const int blocker_lane = lane_of(blocker);
+        const int blocker_lane = lane_of(state_, blocker);
         const bool blocker_is_inside = state_.plan.lane(blocker_lane).origin >= 0;
         const int other = blocker_is_inside ? blocker_lane : v_.next_lane[at(blocker)];
         const double front_m =

@@ -77,8 +77,7 @@ double needed_time_s(const Model& model, const State& state, int lane, const Con
     const double speed_mps = arrays.speed_mps[at(v.slot)];
     const DriverPlan& driver = model.driver_of(arrays.policy[at(v.slot)]);
     const double passing_s = passing_time_s(model, state, lane, conflict, v, v.front_m, speed_mps);
-    const bool is_imported = !model.demand.trips.empty();  // only imported networks have trips
-    if (has_begun && is_imported) return passing_s;
+    if (has_begun && model.is_imported()) return passing_s;
     const double to_wait_s = travel_time_s(driver, wait_m - v.front_m, speed_mps, state.plan.lane(lane).limit_mps);
     const double from_rest_s = passing_time_s(model, state, lane, conflict, v, wait_m, 0.0);
     const double gap_s =
@@ -87,7 +86,7 @@ double needed_time_s(const Model& model, const State& state, int lane, const Con
             : driver.give_way.critical_gap_s - time_since_last_arrival_s(state, conflict) + passing_s - from_rest_s;
     // With this gap, the candidate does not hinder the next vehicle with priority.
     const double unhindered_s = has_begun ? passing_s : std::max(gap_s, passing_s);
-    if (is_imported) return unhindered_s;
+    if (model.is_imported()) return unhindered_s;
     // In other networks, a candidate that has reached its waiting position may make the next vehicle with priority
     // brake. When the candidate reaches this position, that vehicle must have the time for an emergency stop.
     const double stop_s = emergency_stop_gap_s(model, state, conflict) + to_wait_s + delay_s;
@@ -95,11 +94,11 @@ double needed_time_s(const Model& model, const State& state, int lane, const Con
     return std::max(is_at_wait ? std::min(gap_s, unhindered_s) : unhindered_s, stop_s);
 }
 
-// Imported networks only (only their demand has trips): returns the slot of a vehicle that must yield to candidate `v`
-// but has already accepted a gap; -1: none, or the candidate is moving. A stopped candidate lets this vehicle go first.
-// Otherwise several stopped vehicles could give way to each other in a cycle and never start.
+// Imported networks only: returns the slot of a vehicle that must yield to candidate `v` but has already accepted a gap;
+// -1: none, or the candidate is moving. A stopped candidate lets this vehicle go first. Otherwise several stopped
+// vehicles could give way to each other in a cycle and never start.
 int yield_cycle_winner(const Model& model, const State& state, int lane, const Candidate& v) {
-    if (model.demand.trips.empty() || !v.stopped) return -1;
+    if (!model.is_imported() || !v.stopped) return -1;
     for (const Conflict& conflict : state.plan.conflicts(lane)) {
         if (!conflict.other_yields) continue;
         const int origin = state.plan.lane(conflict.other).origin;
@@ -127,7 +126,7 @@ GapBlocker find_gap_blocker(const Model& model, State& state, Partition& part, i
     if (resolution != nullptr) {
         resolution->last_needed_tick = state.tick;
     } else if (const int winner = yield_cycle_winner(model, state, lane, v); winner >= 0) {
-        return {winner, model.demand.trips.empty() ? YieldReason::priority : YieldReason::intruder};
+        return {winner, YieldReason::intruder};
     }
     Arrival next;
     double next_needed_s = 0.0;
@@ -142,7 +141,7 @@ GapBlocker find_gap_blocker(const Model& model, State& state, Partition& part, i
     record.accepted_gap_on = lane;
     // Imported networks: clear the yielding state at once. If stopped vehicles yield to each other in a cycle, the
     // others then see that this vehicle proceeds.
-    if (!model.demand.trips.empty()) record.yield_tick = -2;
+    if (model.is_imported()) record.yield_tick = kNeverYielded_tick;
     if (!model.records_all || had_accepted_gap) return {};
     part.gaps_accepted.push_back({model.time_s(state.tick), arrays.id[at(v.slot)], lane,
                                   static_cast<float>(next.time_s), static_cast<float>(next_needed_s)});

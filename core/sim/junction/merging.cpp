@@ -10,7 +10,7 @@
 namespace stopline {
 
 bool is_merge(const Model& model, const State& state, int lane, const Conflict& conflict) {
-    return !model.demand.trips.empty() && state.plan.lane(lane).exit == state.plan.lane(conflict.other).exit;
+    return model.is_imported() && state.plan.lane(lane).exit == state.plan.lane(conflict.other).exit;
 }
 
 double merging_gap_m(const State& state, int lane, const Candidate& v, int other, int other_slot,

@@ -10,7 +10,7 @@
 namespace stopline {
 
 // Returns true if connection `lane` and connection `conflict.other` lead to the same exit lane and the network is
-// imported (only the demand of imported networks has trips).
+// imported.
 bool is_merge(const Model& model, const State& state, int lane, const Conflict& conflict);
 
 // Returns the net gap in m from the front of candidate `v` on connection `lane` to the rear of a vehicle on connection

@@ -110,7 +110,7 @@ public:
           record_(state.vehicles.record[at(v.slot)]),
           driver_(model.driver_of(state.vehicles.policy[at(v.slot)])),
           speed_mps_(state.vehicles.speed_mps[at(v.slot)]),
-          is_imported_(!model.demand.trips.empty()) {}
+          is_imported_(model.is_imported()) {}
 
     // Returns where and for which vehicle the candidate must wait. `ahead`: slot of the nearest waiting vehicle ahead
     // of the candidate that takes the same connection; -1: none. Before a conflict area where the candidate must yield,
@@ -139,7 +139,7 @@ private:
         if (is_imported_) {
             if (const Wait wait = stop_sign_wait(model_, state_, lane_, v_, line_m); wait.exists()) return wait;
         }
-        was_waiting_ = v_.stopped || record_.yield_tick >= state_.tick - 1;
+        was_waiting_ = v_.stopped || had_to_wait(state_, v_.slot);
         const bool checks_committed = was_waiting_ || is_imported_;
         if (!has_others_inside && !checks_committed && (has_decided_ || !plan.yields)) return {};
         // A stopped candidate cannot use its accepted gap if it must not enter an area further ahead.
@@ -191,7 +191,7 @@ private:
         // A vehicle that already brakes for the line can deviate slightly from the curve of a comfortable stop. It goes
         // on braking for the line as long as maximum braking suffices.
         const bool brakes_for_line =
-            record_.yield_tick >= state_.tick - 1 && record_.yield_position_m <= static_cast<float>(line_m);
+            had_to_wait(state_, v_.slot) && record_.yield_position_m <= static_cast<float>(line_m);
         const double to_line_m = line_m + driver_.tables.stop.margin_m - v_.front_m;
         return brakes_for_line && to_line_m >= emergency_braking_distance_m(model_, speed_mps_);
     }
@@ -251,8 +251,7 @@ private:
             const double in_s =
                 earliest_arrival_s(wait_m(conflict) - v_.front_m, speed_mps_,
                                    driver_.give_way.approach_acceleration_mps2, state_.plan.lane(lane_).limit_mps);
-            const bool may_stop =
-                speed_mps < kCrawlingSpeed_mps || arrays_.record[at(occupant.slot)].yield_tick >= state_.tick - 1;
+            const bool may_stop = speed_mps < kCrawlingSpeed_mps || had_to_wait(state_, occupant.slot);
             if (may_stop || (conflict.other_to_m - occupant.rear_m) / speed_mps > in_s) return false;
         }
         return true;
@@ -323,7 +322,7 @@ private:
     VehicleRecord& record_;
     const DriverPlan& driver_;  // driver of the candidate
     double speed_mps_;
-    bool is_imported_;  // true: the network is imported; only imported networks have trips
+    bool is_imported_;
     double line_m_ = kNoWait_m;
     double decision_m_ = 0.0;
     bool has_decided_ = false;
@@ -337,7 +336,7 @@ void record_wait(State& state, Partition& part, int lane, int slot, double place
     add_yield_stop(state.junctions, part, lane, {slot, place_m, wait.blocker, wait.reason});
     if (wait.reason == YieldReason::merging) return;
     VehicleRecord& record = state.vehicles.record[at(slot)];
-    if (record.yield_tick < state.tick - 1 || state.vehicles.speed_mps[at(slot)] >= kCrawlingSpeed_mps)
+    if (!had_to_wait(state, slot) || state.vehicles.speed_mps[at(slot)] >= kCrawlingSpeed_mps)
         record.wait_since_tick = static_cast<int>(state.tick);
     record.yield_tick = static_cast<int>(state.tick);
     record.yield_position_m =

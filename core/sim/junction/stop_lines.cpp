@@ -14,6 +14,7 @@
 #include "sim/state/delay_log.h"
 #include "sim/state/queries/lane_end.h"
 #include "sim/state/queries/stopping_distance.h"
+#include "sim/state/queries/vehicle_place.h"
 
 namespace stopline {
 
@@ -36,14 +37,6 @@ bool may_overrun_line(const Model& model, const VehicleArrays& v, int slot, doub
     return !can_stop(model, v, slot, line_m, reliable_mps2);
 }
 
-// Returns the slot of the vehicle with this id on a lane; -1: none.
-int slot_of(const VehicleArrays& v, const LaneBlock& block, int id) {
-    for (int slot = block.first; slot < block.past_last(); ++slot) {
-        if (v.id[at(slot)] == id) return slot;
-    }
-    return -1;
-}
-
 // Returns the slot of the first vehicle that can stop before the line for a signal that shows `light`; -1: none.
 // Ignores vehicles whose trip ends on this lane.
 int choose_stopper(const Model& model, const State& state, const LaneBlock& block, double line_m, Light light) {
@@ -57,19 +50,17 @@ int choose_stopper(const Model& model, const State& state, const LaneBlock& bloc
 
 // Returns the reaction time of the vehicle that stopped for the signal of a lane, in ticks. If the drivers differ and
 // the vehicle has left the lane, returns 0.
-std::int64_t hesitation_ticks(const Model& model, const State& state, const LaneBlock& block,
-                              const StopLineState& line) {
+std::int64_t hesitation_ticks(const Model& model, const State& state, int index, const StopLineState& line) {
     if (model.drivers.size() == 1) return model.drivers.front().hesitation_ticks;
-    const int slot = slot_of(state.vehicles, block, line.stopping_vehicle);
+    const int slot = slot_on_lane(state, index, line.stopping_vehicle);
     return slot < 0 ? 0 : model.driver_of(state.vehicles.policy[at(slot)]).hesitation_ticks;
 }
 
 // Returns true if the signal is green and no vehicle that stopped for it still hesitates to start.
-bool line_is_open(const Model& model, const State& state, const LaneBlock& block, int signal_group,
-                  const StopLineState& line) {
+bool line_is_open(const Model& model, const State& state, int index, int signal_group, const StopLineState& line) {
     if (state.signals.lights[at(signal_group)] != Light::green) return false;
     return line.stopping_vehicle < 0 ||
-           state.tick >= state.signals.since_tick[at(signal_group)] + hesitation_ticks(model, state, block, line);
+           state.tick >= state.signals.since_tick[at(signal_group)] + hesitation_ticks(model, state, index, line);
 }
 
 // Returns the slot of the first vehicle that must stop for the signal of its own movement and can stop; -1: none. This
@@ -145,10 +136,9 @@ void make_platoon_leader(State& state, const LanePlan& lane, int slot) {
 void list_approaching(const Model& model, State& state, Partition& part, int index) {
     // Vehicles further than this from the lane's end are not listed. 60 m suffice for a comfortable stop from 50 km/h.
     constexpr double kLookBack_m = 60.0;
-    // Replaces kLookBack_m in imported networks (only their demand has trips), where speed limits above 50 km/h occur.
+    // Replaces kLookBack_m in imported networks, where speed limits above 50 km/h occur.
     constexpr double kFastRoadLookBack_m = 160.0;
-    const bool has_trips = !model.demand.trips.empty();
-    const double look_back_m = has_trips ? kFastRoadLookBack_m : kLookBack_m;
+    const double look_back_m = model.is_imported() ? kFastRoadLookBack_m : kLookBack_m;
     const VehicleArrays& v = state.vehicles;
     const double length_m = state.plan.lane(index).length_m;
     const LaneBlock& block = state.blocks[at(index)];
@@ -162,7 +152,7 @@ void list_approaching(const Model& model, State& state, Partition& part, int ind
         // A vehicle with priority needs no decision while no vehicle is on a conflicting connection. In imported
         // networks a vehicle with priority may still have to wait for a vehicle without priority that is too fast to
         // stop.
-        if (!has_trips && !connection_plan.yields && !state.junctions.occupied.has_any(state.plan.conflicting(next)))
+        if (!model.is_imported() && !connection_plan.yields && !state.junctions.occupied.has_any(state.plan.conflicting(next)))
             continue;
         const DriverPlan& driver = model.driver_of(v.policy[at(slot)]);
         double to_area_m = to_end_m + connection_plan.first_conflict_m - driver.give_way.margin_m;
@@ -212,10 +202,10 @@ void decide_stop_lines(const Model& model, State& state, Partition& part) {
             stop_slot = choose_stopper_per_movement(model, state, index, line);
             set_stopper(model, state, index, stop_slot, line);
             may_go = stop_slot < 0;
-        } else if (line_is_open(model, state, block, lane.signal_group, line)) {
+        } else if (line_is_open(model, state, index, lane.signal_group, line)) {
             line.stopping_vehicle = -1;
         } else {
-            if (line.stopping_vehicle >= 0) stop_slot = slot_of(state.vehicles, block, line.stopping_vehicle);
+            if (line.stopping_vehicle >= 0) stop_slot = slot_on_lane(state, index, line.stopping_vehicle);
             if (stop_slot < 0) {
                 stop_slot =
                     choose_stopper(model, state, block, lane.stop_line_m, state.signals.lights[at(lane.signal_group)]);

@@ -14,6 +14,7 @@
 #include "sim/state/queries/gap.h"
 #include "sim/state/queries/received_message.h"
 #include "sim/state/queries/stopping_distance.h"
+#include "sim/state/queries/vehicle_place.h"
 
 namespace stopline {
 
@@ -32,21 +33,6 @@ constexpr double kReached_m = 0.3;         // a gap is open if it lacks less tha
 constexpr double kSilence_s = 1.0;         // an agreement ends if a vehicle hears nothing from the other for so long
 constexpr int kLostMessages = 3;           // and has missed at least so many messages
 constexpr int kFollowersPerOpener = 4;     // at most one opener in this number of consecutive vehicles
-
-// Returns the slot of the vehicle `id` on `lane`; -1: it is not there. `index` is the expected index of the vehicle on
-// its lane.
-int find_vehicle(const State& state, int lane, int id, int index) {
-    const LaneBlock& block = state.blocks[at(lane)];
-    const auto& ids = state.vehicles.id;
-    for (const int guess : {index, index - 1, index + 1}) {
-        const int slot = block.first + guess;
-        if (block.has(slot) && ids[at(slot)] == id) return slot;
-    }
-    for (int slot = block.first; slot < block.past_last(); ++slot) {
-        if (ids[at(slot)] == id) return slot;
-    }
-    return -1;
-}
 
 class LaneRequests {
 public:
@@ -105,7 +91,7 @@ private:
 
     // Returns false if the request has ended.
     bool keep(GapRequest& r) {
-        const int slot = find_vehicle(state_, lane_, r.requester, r.place);
+        const int slot = slot_on_lane(state_, lane_, r.requester, r.place);
         if (slot < 0) return end_of_departed(r);
         r.place = slot - block_.first;
         const LaneChangeRequest me = lane_change_request(model_, state_, lane_, slot);
@@ -132,7 +118,7 @@ private:
     bool end_of_departed(const GapRequest& r) {
         if (!r.agreed()) return false;
         const LaneBlock& there = state_.blocks[at(r.target_lane)];
-        const int slot = find_vehicle(state_, r.target_lane, r.requester, 0);
+        const int slot = slot_on_lane(state_, r.target_lane, r.requester, 0);
         const bool is_used = slot >= 0 && there.has(slot + 1) && v_.id[at(slot + 1)] == r.opener;
         ++part_.gap_counts.of(is_used ? GapEnding::used : GapEnding::not_needed);
         return false;
@@ -194,7 +180,7 @@ private:
     }
 
     void keep_opening(GapRequest& r, const LaneChangeRequest& me) {
-        const int opener = find_vehicle(state_, r.target_lane, r.opener, r.place);
+        const int opener = slot_on_lane(state_, r.target_lane, r.opener, r.place);
         if (opener < 0) return end(r, GapEnding::left);
         const std::int64_t answered_tick = answer_tick(me, opener);
         if (answered_tick == kNoMessage || request_tick(r, me, opener) == kNoMessage)
@@ -241,7 +227,7 @@ private:
     bool is_taken(GapRequest& r, const Place& place) const {
         const int leader = place.leader < 0 ? -1 : v_.id[at(place.leader)];
         if (leader == r.leader) return false;
-        if (leader >= 0 && (r.leader < 0 || find_vehicle(state_, r.target_lane, r.leader, r.place) >= 0)) return true;
+        if (leader >= 0 && (r.leader < 0 || slot_on_lane(state_, r.target_lane, r.leader, r.place) >= 0)) return true;
         r.leader = leader;
         return false;
     }
@@ -344,7 +330,7 @@ private:
             if (beside < 0) continue;
             for (const GapRequest& r : cooperation_.requests[at(beside)]) {
                 if (r.target_lane != lane) continue;
-                const int other = r.agreed() ? find_vehicle(state_, lane, r.opener, slot - block.first) : -1;
+                const int other = r.agreed() ? slot_on_lane(state_, lane, r.opener, slot - block.first) : -1;
                 if (other >= 0 && std::abs(other - slot) < kFollowersPerOpener) return true;
             }
         }

@@ -69,8 +69,7 @@ private:
     // Returns true if the vehicle in `slot` of lane `other` must change to the lane of `me`, while `me` must change to
     // lane `other`. Of two vehicles that want to swap lanes, the vehicle further upstream falls back.
     bool wants_to_swap(int other, int slot, const LaneChangeRequest& me) const {
-        const LaneBlock& block = state_.blocks[at(other)];
-        if (slot < block.first || slot >= block.past_last()) return false;
+        if (!state_.blocks[at(other)].has(slot)) return false;
         return me.lane_changes * lane_change_request(model_, state_, other, slot).lane_changes < 0;
     }
 

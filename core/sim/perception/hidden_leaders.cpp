@@ -81,7 +81,7 @@ void react_to_hidden_leaders(const Model& model, const State& state, int lane, c
                              Partition& part) {
     const int first = state.blocks[at(lane)].first;
     if (hidden.slot >= 0) add_demand(model, state, lane, first, hidden, part);
-    const bool can_diverge = state.plan.lane(lane).branches || !model.demand.trips.empty();
+    const bool can_diverge = state.plan.lane(lane).branches || model.is_imported();
     // While the first vehicle is stopped, its followers cannot reach a hidden vehicle.
     if (can_diverge && state.vehicles.speed_mps[at(first)] > 0.0) {
         react_to_leaders_hidden_from_followers(model, state, lane, part);

@@ -142,6 +142,8 @@ struct Model {
     // no messages.
     int start_relay_vehicles = 0;
 
+    // Returns true if the network is imported from SUMO files. Only imported networks have trips.
+    bool is_imported() const { return !demand.trips.empty(); }
     bool has_human_drivers() const {
         return std::any_of(drivers.begin(), drivers.end(), [](const DriverPlan& driver) { return driver.is_human; });
     }

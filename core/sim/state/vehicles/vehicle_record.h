@@ -30,6 +30,10 @@ struct Itinerary {
     bool has_trip() const { return trip >= 0; }
 };
 
+// A value of VehicleRecord::yield_tick: the vehicle has not had to wait. It is earlier than the step before the first
+// one.
+inline constexpr int kNeverYielded_tick = -2;
+
 // A connection is a lane inside an intersection.
 struct VehicleRecord {
     int route = -1;
@@ -39,7 +43,8 @@ struct VehicleRecord {
     int leader_id = -1;                // id of the vehicle that the radar tracks; -1: none
     int accepted_gap_on = -1;          // connection on which the vehicle has accepted a gap; -1: none
     int junction_entry_tick = 0;       // tick at which the vehicle most recently passed a stop line
-    int yield_tick = -2;               // latest tick at which the vehicle had to wait before a conflict area
+    // Latest tick at which the vehicle had to wait before a conflict area or at a stop sign.
+    int yield_tick = kNeverYielded_tick;
     float yield_position_m = 0.0F;     // position of the wait at yield_tick, from the start of the connection
     Turn following_turn = Turn::none;  // turn at the second intersection ahead; none: unknown or no turn
     Turn third_turn = Turn::none;      // turn at the third intersection ahead; none: not known, or vehicle on a trip
