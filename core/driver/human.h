@@ -33,7 +33,7 @@
 // acceleration of the intelligent driver model grows with the gap, so this model alone starts as late as measured
 // drivers. With the waiting time in addition, the delay would count twice. Measured followers accelerate at once
 // (data/startup/stuttgart_curve.csv). In full dynamics, the powertrain adds its delay. In the mesoscale mode,
-// MesoSettings::start_delay_s stands for this delay.
+// MesoSettings::start_delay_s replaces this delay.
 #pragma once
 
 #include <array>
@@ -48,7 +48,7 @@ inline constexpr double kFullErrorSpeed_mps = 1.0;
 inline constexpr int kMaxAnticipatedVehicles = 10;
 inline constexpr double kErrorRange_m = 100.0;  // the closing error does not grow beyond this gap
 
-// The reaction time of a driver. `u` is uniform in [0, 1).
+// Returns the reaction time of a driver while following. `u` is uniform in [0, 1).
 template <class R>
 STOPLINE_INLINE R reaction_time_s(const HumanSettings& h, const R& u) {
     return h.reaction_s + h.reaction_spread_s * (2.0 * u - 1.0);
@@ -60,8 +60,8 @@ STOPLINE_INLINE R start_reaction_s(const HumanSettings& h, const R& reaction_s) 
     return h.reaction_s > 0.0 ? R(reaction_s * (h.start_reaction_s / h.reaction_s)) : R(h.start_reaction_s);
 }
 
-// Returns 1 for a driver that drives off, else 0. `since_leader_start_s` is the time since the leader began to move (0
-// while it stands), and `wait_s` the delay of the own start. `extra_gap_m` is the net gap minus the standstill gap.
+// Returns 1 for a driver that drives off, else 0. `since_leader_start_s`: time since the leader began to move; 0 while
+// it is stopped. `wait_s`: delay of the own start. `extra_gap_m`: net gap minus standstill gap.
 template <class R>
 STOPLINE_INLINE R is_driving_off(const R& since_leader_start_s, const R& wait_s, const R& reaction_s,
                                  const R& closing_mps, const R& extra_gap_m) {
@@ -70,18 +70,17 @@ STOPLINE_INLINE R is_driving_off(const R& since_leader_start_s, const R& wait_s,
            STOPLINE_FLAG(R, extra_gap_m >= 0.0);
 }
 
-// Number of steps since the leader of a stopped driver began to move.
-// kStartedLongAgo_ticks is also the value of a driver that has not stopped behind a leader.
+// Highest value of VehicleArrays::start_ticks, the number of steps since the leader of a stopped driver began to move.
+// A driver that has not stopped behind a leader has this value, too.
 inline constexpr int kStartedLongAgo_ticks = 1 << 28;
-inline constexpr double kStandsClosedUp_m =
-    1.0;  // a driver with a larger extra gap has not stopped because of its leader
+// Our choice: a driver with a larger extra gap has not stopped because of its leader.
+inline constexpr double kStoppedBehindLeader_m = 1.0;
 
-// Advances the count of steps since the leader started by one step. `ticks` is the value of the previous step. Returns
-// 0 while driver and leader are stopped and the extra gap is at most kStandsClosedUp_m. `extra_gap_m` is the net gap
-// minus the standstill gap.
+// Returns the number of steps since the leader started, one step after it was `ticks`. Returns 0 while driver and leader
+// are stopped and the extra gap is at most kStoppedBehindLeader_m. `extra_gap_m`: net gap minus standstill gap.
 inline int next_start_ticks(int ticks, double speed_mps, double leader_speed_mps, double extra_gap_m) {
     const bool both_rest = speed_mps <= kMesoStopSpeed_mps && leader_speed_mps <= kMesoStopSpeed_mps;
-    if (both_rest && extra_gap_m <= kStandsClosedUp_m) return 0;
+    if (both_rest && extra_gap_m <= kStoppedBehindLeader_m) return 0;
     return ticks < kStartedLongAgo_ticks ? ticks + 1 : ticks;
 }
 

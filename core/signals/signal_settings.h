@@ -25,7 +25,7 @@ struct PhaseSettings {
     double gap_s = 3.0;        // green ends when no detector of the phase has been occupied for this time
     // minimum: the phase is served in each cycle. maximum: it is served in each cycle for its maximum green.
     std::string recall = "off";  // off | minimum | maximum
-    // For controllers with rings (signals/ring_plan.h):
+    // For controllers with rings (signals/rings/ring_plan.h):
     int ring = 1;
     int barrier = 1;  // phases of both rings with the same number can run together
     // on: served without a call if the other ring has a call for the same barrier number.

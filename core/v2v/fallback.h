@@ -62,7 +62,7 @@ STOPLINE_INLINE D update_mode(FallbackModeOf<D>& fallback, const D& demanded, do
 template <class D>
 struct TimeGapOf {
     D time_gap_s;
-    D rate;
+    D rate;  // change of the time gap in s per s
 };
 
 // Moves the time gap towards a target. At the speed `speed_mps` the gap thus opens by at most kOpening_mps and closes

@@ -57,6 +57,7 @@ V2vPlan make_v2v_plan(const V2vSettings& settings, bool active, double delay_s, 
 inline constexpr int kJitterIntervals = 2;
 // An exponential jitter is cut off at this multiple of its mean; 0.7 % of the draws are longer.
 inline constexpr double kLongestJitter = 5.0;
+// Returns the time between two messages of a vehicle, s. It need not be a whole number of steps.
 double message_interval_s(const V2vSettings& settings, double step_s);
 
 // Returns the random part of the delay of a message.

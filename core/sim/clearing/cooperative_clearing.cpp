@@ -136,8 +136,8 @@ private:
         return to_line_m(slot) <= decision_distance_m(model_.driver_of(v_.policy[at(slot)]), v_.speed_mps[at(slot)]);
     }
 
-    // Admits the vehicle in slot `end_` if it may enter. A vehicle that must decide now is refused if it may not enter
-    // and can still stop. Returns true if the vehicle is admitted.
+    // Admits the vehicle in `slot` if it may enter. If it may not enter, but must decide now (`decides`), it is admitted
+    // if it can no longer stop, and else refused. Returns true if the vehicle is admitted. `slot` must be `end_`.
     bool admit(int slot, bool decides) {
         const bool passes = is_on_last_edge(state_, slot) || light_of(slot) != Light::green;
         if (!passes && !may_enter(slot) && (!decides || can_hold(slot))) {

@@ -129,7 +129,7 @@ void make_platoon_leader(State& state, const LanePlan& lane, int slot) {
     }
 }
 
-// Lists the vehicles of an approach lane for which right of way must be decided (JunctionState::approaching). Leaves
+// Lists the vehicles of an approach lane for which right of way must be decided (Partition::approaching). Leaves
 // out the vehicle that stops at the line and all vehicles behind it. Also leaves out vehicles that are further than
 // decision_distance_m() from their first conflict area, or from the stop line if they may wait only there or have a
 // stop sign. Exception: vehicles that must yield and have already accepted a gap are listed at a greater distance, too.

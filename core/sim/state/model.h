@@ -65,8 +65,9 @@ struct DriverPlan {
     HumanSettings human;
     SpeedAdviceSettings speed_advice;
     bool is_human = false;  // true: a human driver (driver/human.h); false: an automated vehicle
+    // Reaction time of the first vehicle at a stop line when its signal turns green.
     double hesitation_s = 0.0;
-    std::int64_t hesitation_ticks = 0;  // reaction time of the first vehicle at a stop line when its signal turns green
+    std::int64_t hesitation_ticks = 0;  // the same in ticks
 };
 
 // The vehicle type and the driver of the vehicles with one spacing policy.
@@ -133,8 +134,9 @@ struct Model {
     std::vector<AccelerationProfile> acceleration_limits;
     // Mesoscale mode: [policy] deceleration before a lower speed limit; empty if all drivers have the same.
     std::vector<double> slow_downs_mps2;
-    double powertrain_delay_s = 0.0;    // mesoscale mode: start-up delay of a vehicle (MesoSettings::start_delay_s)
-    AccelerationProfile power_profile;  // lower bound of the acceleration on these fast lanes, by speed
+    double powertrain_delay_s = 0.0;  // mesoscale mode: start-up delay of a vehicle (MesoSettings::start_delay_s)
+    // Lower bound of the acceleration by speed, on the lanes that has_fast_lanes means.
+    AccelerationProfile power_profile;
     // Acceleration of platoon leaders by speed. If this table is not empty (bins_per_mps above 0), it replaces
     // leader_mps2 and leader_constant_power_speed_mps.
     AccelerationProfile leader_profile;

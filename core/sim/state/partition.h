@@ -31,11 +31,11 @@ struct BlockerPass {
     bool begun = false;                      // true: both vehicles have been in one conflict area at the same time
 };
 
-// The decision between two stopped vehicles that wait for each other and have no priority over each other. One vehicle
-// proceeds, the other vehicle yields.
+// A decision that ends a deadlock: in a cycle of stopped vehicles that wait for each other, one vehicle proceeds before
+// its blocker.
 struct DeadlockResolution {
     int proceeds = -1;                  // id of the vehicle that proceeds
-    int yields = -1;                    // id of the vehicle that yields
+    int yields = -1;                    // id of its blocker, which yields
     std::int64_t last_needed_tick = 0;  // latest tick at which the decision was applied
 };
 

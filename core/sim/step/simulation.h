@@ -1,31 +1,9 @@
-// One run: a constant Model, and a State that the simulation advances step by step. The table lists the phases of a
-// step, the data that each phase determines or changes, and its source file. A partition is a group of whole
-// intersections.
+// One run: a constant Model, and a State that the simulation advances step by step. 'The phases of a step' in
+// core/README.md lists the phases with their source files.
 //
-//   for each partition:
-//     occupied    lanes with vehicles                                           step/occupied_lanes
-//     perception  leader of the first vehicle of each lane, hidden leaders      perception/look_ahead, hidden_leaders
-//     occupants   vehicles inside intersections                                 junction/occupants
-//     stop lines  vehicles that stop for a signal or the keep-clear rule        junction/stop_lines
-//     yielding    vehicles that yield before a conflict area                    junction/right_of_way
-//     gaps        alignment with gaps in the target lane                        lane_change/gap_search
-//     advice      speeds with which vehicles arrive at green                    speed_advice/speed_advice
-//     selection   mesoscale mode: vehicles that can move                        mesoscale/meso_blocks
-//   at intervals:
-//     delay       stopped vehicles and the causes of their delay                congestion/delay_causes
-//   for each partition:
-//     move        requested acceleration, powertrain, speed and position        step/move_vehicles
-//     detectors   vehicles whose front passes a detector                        step/detectors
-//   for the whole network:
-//     reports     merging of events and counters of the partitions              step/partition_reports
-//     transfer    vehicles that have reached the end of their lane              step/transfer
-//     insertion   vehicles that enter the network                               insertion/
-//     teleport    vehicles that have been stopped for too long                  congestion/teleport
-//     change      lane changes                                                  lane_change/lane_change
-//     signals     lights of the next step, by the signal controllers            junction/lights/signals
-//
-// For each partition, the phases from `occupied` to `selection` read the state at the beginning of the step, and write
-// only data of this partition. Results therefore do not depend on the number of partitions and threads.
+// A step first decides and then moves, for each partition (a group of whole intersections). The decisions read the
+// state at the beginning of the step, and write only data of their partition. Results therefore do not depend on the
+// number of partitions and threads.
 #pragma once
 
 #include <cstdint>
