@@ -292,7 +292,9 @@ private:
 
     // Closes the episodes that were not observed in this step: forms the lists of all lanes anew without them.
     void close_episodes() {
-        const auto episode_at = [&](const OpenEpisode& open) { return log_.episodes[at(open.episode)]; };
+        const auto episode_at = [&](const OpenEpisode& open) -> const DelayEpisode& {
+            return log_.episodes[at(open.episode)];
+        };
         std::vector<OpenEpisode>& open_episodes = watch_.open_episodes;
         for (const OpenEpisode& open : open_episodes) watch_.lanes[at(episode_at(open).lane)].open_episode = -1;
         std::erase_if(open_episodes, [&](const OpenEpisode& open) { return episode_at(open).to_s < now_s_; });

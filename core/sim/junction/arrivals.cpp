@@ -28,10 +28,6 @@ bool is_yielding_before(const State& state, int slot, double area_m) {
     return is_yielding(state, slot) && state.vehicles.record[at(slot)].yield_position_m <= static_cast<float>(area_m);
 }
 
-bool lets_others_go(const State& state, int slot) {
-    return is_yielding(state, slot) && state.vehicles.record[at(slot)].yield_reason != YieldReason::intruder;
-}
-
 double earliest_arrival_s(double distance_m, double speed_mps, double acceleration_mps2, double limit_mps) {
     const double to_limit_mps = std::max(limit_mps - speed_mps, 0.0);
     const double to_limit_m = to_limit_mps * (speed_mps + 0.5 * to_limit_mps) / acceleration_mps2;
@@ -87,6 +83,13 @@ bool is_behind_yielding_vehicle(const State& state, int lane, const JunctionOccu
 }
 
 namespace {
+
+// Returns true if the vehicle yields (is_yielding()), but not to an intruder (YieldReason::intruder). An intruder is a
+// vehicle that must itself yield but goes first, for example because it can no longer stop. If the result is true,
+// vehicles that must yield to this vehicle may go before it.
+bool lets_others_go(const State& state, int slot) {
+    return is_yielding(state, slot) && state.vehicles.record[at(slot)].yield_reason != YieldReason::intruder;
+}
 
 // Returns the slot of a vehicle that stops at the stop line of `lane`, so that the vehicles behind it cannot reach
 // `connection`; -1: none. While the signal of `connection` is green, a stopping vehicle counts only if it takes another

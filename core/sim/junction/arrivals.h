@@ -24,11 +24,6 @@ bool is_yielding(const State& state, int slot);
 // start of a conflict area on its connection. A vehicle that waits further downstream still drives into the area.
 bool is_yielding_before(const State& state, int slot, double area_m);
 
-// Returns true if the vehicle yields (is_yielding()), but not to an intruder (YieldReason::intruder). An intruder is a
-// vehicle that must itself yield but goes first, for example because it can no longer stop. If the result is true,
-// vehicles that must yield to this vehicle may go before it.
-bool lets_others_go(const State& state, int slot);
-
 // Returns true if the vehicle and its leader are close together and both slower than kCrawlingSpeed_mps. Neither the
 // vehicle nor its followers are expected to arrive soon.
 bool is_blocked_by_leader(const State& state, int slot);
@@ -57,8 +52,8 @@ struct Arrival {
 };
 // Returns the next arrival of a vehicle at the conflict area on connection `conflict.other`. The search covers the
 // connection, its approach lane, and the lanes further upstream from which a vehicle can arrive within `horizon_s`. The
-// search ignores vehicles that let others go (lets_others_go()), stop for the signal or are in a queue. In imported
-// networks the search also ignores vehicles that the keep-clear rule holds at rest. `ignores_stopped`: the search also
+// search ignores vehicles that yield to others than intruders (YieldReason::intruder), stop for the signal or are in a
+// queue. In imported networks the search also ignores vehicles that the keep-clear rule holds at rest. `ignores_stopped`: the search also
 // ignores all vehicles slower than kCrawlingSpeed_mps. Vehicles behind an ignored vehicle, on the same connection or
 // approach lane, are ignored, too.
 Arrival next_arrival(const Model& model, const State& state, const Conflict& conflict, double horizon_s,

@@ -9,15 +9,23 @@
 
 namespace stopline {
 
-bool is_merge(const Model& model, const State& state, int lane, const Conflict& conflict) {
-    return model.is_imported() && state.plan.lane(lane).exit == state.plan.lane(conflict.other).exit;
-}
+namespace {
 
+// Returns the net gap in m from the front of candidate `v` on connection `lane` to the rear of a vehicle on connection
+// `other`, whose front is at `other_front_m`. This is the distance of the candidate's front to the exit lane minus the
+// distance of the other vehicle's rear to the exit lane. The gap is negative if the vehicles are side by side, or if
+// the other vehicle is further from the exit lane than the candidate.
 double merging_gap_m(const State& state, int lane, const Candidate& v, int other, int other_slot,
                      double other_front_m) {
     const double own_m = state.plan.lane(lane).length_m - v.front_m;
     const double other_m = state.plan.lane(other).length_m - other_front_m;
     return own_m - other_m - static_cast<double>(state.vehicles.length_m[at(other_slot)]);
+}
+
+}  // namespace
+
+bool is_merge(const Model& model, const State& state, int lane, const Conflict& conflict) {
+    return model.is_imported() && state.plan.lane(lane).exit == state.plan.lane(conflict.other).exit;
 }
 
 bool merges_first(const State& state, int lane, const Candidate& v, const Conflict& conflict, int other_slot,

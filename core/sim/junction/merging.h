@@ -13,12 +13,6 @@ namespace stopline {
 // imported.
 bool is_merge(const Model& model, const State& state, int lane, const Conflict& conflict);
 
-// Returns the net gap in m from the front of candidate `v` on connection `lane` to the rear of a vehicle on connection
-// `other`, whose front is at `other_front_m`. This is the distance of the candidate's front to the exit lane minus the
-// distance of the other vehicle's rear to the exit lane. The gap is negative if the vehicles are side by side, or if
-// the other vehicle is further from the exit lane than the candidate.
-double merging_gap_m(const State& state, int lane, const Candidate& v, int other, int other_slot, double other_front_m);
-
 // Returns true if the positions of two vehicles let candidate `v` on connection `lane` go first. The other vehicle is
 // on connection `conflict.other`, with its front at `other_front_m`. The candidate goes first in three cases: Only the
 // candidate is in the conflict area. Both vehicles are in the area, and the candidate is nearer to the exit lane (at

@@ -9,6 +9,7 @@
 #include "base/simd/simd.h"
 #include "sim/mesoscale/meso_platoons.h"
 #include "sim/state/queries/overlap.h"
+#include "sim/state/queries/stopping_distance.h"
 
 namespace stopline {
 
@@ -40,13 +41,12 @@ ExtraGap evaluate_extra_gap(const Model& model, std::size_t size, const VehicleA
 }  // namespace
 
 double stopping_speed_mps(const Model& model, const VehicleArrays& v, int slot, double room_m) {
-    const FollowingModel& following = model.following[model.following.size() == 1 ? 0 : at(v.policy[at(slot)])];
-    const DriverTables& driver = model.driver_of(v.policy[at(slot)]).tables;
-    const FollowingBraking braking = following.braking();
-    const double b = std::min(braking.deceleration_mps2, driver.stop.deceleration_mps2);
-    const double max_braking_mps2 = driver.cacc.deceleration_emergency_mps2;
+    const int policy = v.policy[at(slot)];
+    const FollowingBraking braking = stop_line_braking(model, policy);
+    const double max_braking_mps2 = model.driver_of(policy).tables.cacc.deceleration_emergency_mps2;
     const double lowest_mps = v.speed_mps[at(slot)] - max_braking_mps2 * model.step_s;
-    return std::max(braking_speed_mps(b, braking.reaction_s, std::max(room_m, 0.0), 0.0), lowest_mps);
+    return std::max(
+        braking_speed_mps(braking.deceleration_mps2, braking.reaction_s, std::max(room_m, 0.0), 0.0), lowest_mps);
 }
 
 double leading_speed_mps(const Model& model, int policy, double speed_mps, double limit_mps) {
@@ -57,43 +57,48 @@ double leading_speed_mps(const Model& model, int policy, double speed_mps, doubl
 }
 
 MesoStreams meso_streams(VehicleArrays& v) {
-    return {v.position_m.data(),
-            v.speed_mps.data(),
-            v.limit_mps.data(),
-            v.next_limit_m.data(),
-            v.speed_cap_mps.data(),
-            v.length_m.data(),
-            v.end_speed_mps.data(),
-            v.acceleration_mps2.data(),
-            v.is_platoon_leader.data(),
-            v.id.data(),
-            v.policy.data(),
-            v.has_human_drivers ? v.start_ticks.data() : nullptr};
+    return {.position = v.position_m.data(),
+            .speed = v.speed_mps.data(),
+            .limit = v.limit_mps.data(),
+            .next_limit = v.next_limit_m.data(),
+            .speed_cap = v.speed_cap_mps.data(),
+            .length = v.length_m.data(),
+            .end_speed = v.end_speed_mps.data(),
+            .acceleration = v.acceleration_mps2.data(),
+            .is_platoon_leader = v.is_platoon_leader.data(),
+            .id = v.id.data(),
+            .policy = v.policy.data(),
+            .start_ticks = v.has_human_drivers ? v.start_ticks.data() : nullptr};
 }
 
 MesoStep meso_step(const Model& model, std::int64_t tick, bool prefetches) {
     constexpr double kNoLimit_mps2 = 1e9;
+    const DriverTables& driver = model.common_driver();
+    const double emergency_mps2 = driver.cacc.deceleration_emergency_mps2;
     const bool relays = model.start_relay_vehicles > 0;
     const auto foresees = [](const FollowingModel& following) { return following.leader_foresees(); };
-    return {model.step_s,
-            dawdle_key(model.seed),
-            driver_key(model.seed),
-            static_cast<std::uint64_t>(tick),
-            model.common_driver().deceleration_mps2,
-            model.slow_downs_mps2.empty() ? nullptr : model.slow_downs_mps2.data(),
-            model.approach_share,
-            model.turn_share,
-            model.leader_mps2,
-            model.leader_constant_power_speed_mps,
-            model.leader_profile.bins_per_mps > 0.0 ? &model.leader_profile : nullptr,
-            model.has_fast_lanes ? &model.power_profile : nullptr,
-            model.calibrated_limit_mps,
-            model.acceleration_limits.empty() ? nullptr : model.acceleration_limits.data(),
-            relays,
-            relays && std::all_of(model.following.begin(), model.following.end(), foresees),
-            model.graph.approaches.empty() ? kNoLimit_mps2 : model.common_driver().cacc.deceleration_emergency_mps2,
-            model.common_driver().cacc.deceleration_emergency_mps2,
-            prefetches};
+    // The car-following models ask for more than an emergency braking only after lane changes. In networks without lane
+    // changes, which have no approaches, they therefore apply without a limit.
+    const double hardest_mps2 = model.graph.approaches.empty() ? kNoLimit_mps2 : emergency_mps2;
+    return {.dt = model.step_s,
+            .key = dawdle_key(model.seed),
+            .driver_key = driver_key(model.seed),
+            .tick = static_cast<std::uint64_t>(tick),
+            .slow_down_mps2 = driver.deceleration_mps2,
+            .slow_downs_mps2 = model.slow_downs_mps2.empty() ? nullptr : model.slow_downs_mps2.data(),
+            .approach_share = model.approach_share,
+            .turn_share = model.turn_share,
+            .leader_mps2 = model.leader_mps2,
+            .leader_constant_power_speed_mps = model.leader_constant_power_speed_mps,
+            .leader_profile = model.leader_profile.bins_per_mps > 0.0 ? &model.leader_profile : nullptr,
+            .power_profile = model.has_fast_lanes ? &model.power_profile : nullptr,
+            .calibrated_limit_mps = model.calibrated_limit_mps,
+            .acceleration_limits = model.acceleration_limits.empty() ? nullptr : model.acceleration_limits.data(),
+            .relays = relays,
+            .leaders_foresee = relays && std::all_of(model.following.begin(), model.following.end(), foresees),
+            .hardest_mps2 = hardest_mps2,
+            .emergency_mps2 = emergency_mps2,
+            .prefetches = prefetches};
 }
 
 void step_meso(const Model& model, State& state, Partition& part) {

@@ -154,10 +154,6 @@ STOPLINE_INLINE LeaderAhead ahead_on_route(const State& state, int lane, double 
     return diverging_leader;
 }
 
-}  // namespace
-
-namespace {
-
 STOPLINE_INLINE LeaderAhead ahead_of(const State& state, int lane, int slot, double range_m,
                                      LeaderAhead* hidden = nullptr) {
     // A vehicle without a next lane leaves the network at the end of its lane, or must change lanes before. Only a

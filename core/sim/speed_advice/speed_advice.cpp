@@ -99,14 +99,11 @@ private:
     // Returns the distance to the stop line at which the vehicle would begin to brake for a red light.
     double braking_onset_m(int slot, double speed_mps) const {
         const int policy = state_.vehicles.policy[at(slot)];
-        const DriverPlan& driver = model_.driver_of(policy);
-        const double margin_m = driver.tables.stop.margin_m;
-        if (!model_.meso) {
-            return margin_m + kBrakingReaction_s * speed_mps + stopping_distance_m(driver.tables, speed_mps);
-        }
-        const FollowingBraking braking = model_.following[model_.following.size() == 1 ? 0 : at(policy)].braking();
-        const double b = std::min(braking.deceleration_mps2, driver.tables.stop.deceleration_mps2);
-        return margin_m + braking.reaction_s * speed_mps + 0.5 * square(speed_mps) / b;
+        const DriverTables& driver = model_.driver_of(policy).tables;
+        const double margin_m = driver.stop.margin_m;
+        if (!model_.meso) return margin_m + kBrakingReaction_s * speed_mps + stopping_distance_m(driver, speed_mps);
+        const FollowingBraking braking = stop_line_braking(model_, policy);
+        return margin_m + braking.reaction_s * speed_mps + 0.5 * square(speed_mps) / braking.deceleration_mps2;
     }
 
     // Sets a target speed with which the vehicle reaches the braking distance of the stop line when it may pass. If it

@@ -30,6 +30,15 @@ inline double reliable_stopping_distance_m(const Model& model, const DriverPlan&
                       : stopping_distance_m(driver.tables, speed_mps);
 }
 
+// Mesoscale mode: returns how vehicles of a policy brake before a stop line. The deceleration is that of the car-following
+// model, but at most `stop.deceleration` of the driver settings.
+inline FollowingBraking stop_line_braking(const Model& model, int policy) {
+    FollowingBraking braking = model.following[at(policy)].braking();
+    braking.deceleration_mps2 =
+        std::min(braking.deceleration_mps2, model.driver_of(policy).tables.stop.deceleration_mps2);
+    return braking;
+}
+
 // Returns the braking distance of an emergency stop. The reaction time is not included.
 inline double emergency_braking_distance_m(const Model& model, double speed_mps) {
     return 0.5 * square(speed_mps) / model.common_driver().cacc.deceleration_emergency_mps2;
