@@ -122,13 +122,14 @@ struct Upstream {
     int depth;         // recursion depth of the call; 0: first call
 };
 
-void look_upstream(const Model& model, const State& state, const Upstream& here, double horizon_s, Arrival& soonest) {
+void look_upstream(const Model& model, const State& state, const Upstream& here, const ArrivalSearch& search,
+                   Arrival& soonest) {
     constexpr int kMaxDepth = 3;
     const VehicleArrays& v = state.vehicles;
     if (here.depth == kMaxDepth) return;
     const Turn turn = model.graph.lanes[at(here.connection)].turn;
     const auto consider = [&](int slot, double distance_m, double limit_mps) {
-        if (v.speed_mps[at(slot)] < kCrawlingSpeed_mps || distance_m > horizon_s * limit_mps) return;
+        if (v.speed_mps[at(slot)] < kCrawlingSpeed_mps || distance_m > search.horizon_s * limit_mps) return;
         const VehicleRecord& record = v.record[at(slot)];
         // Only the first call (depth 0) checks the turn that the vehicle will make at the end of `here.lane`
         // (following_turn). The call ignores vehicles with another turn than that of `here.connection`, and vehicles
@@ -136,12 +137,12 @@ void look_upstream(const Model& model, const State& state, const Upstream& here,
         // turn is not drawn yet. Such a vehicle is assumed to take `here.connection`.
         const bool unknown = record.following_turn == Turn::none && !v.itinerary_of(at(slot)).has_trip();
         if (here.depth == 0 && !unknown && record.following_turn != turn) return;
-        const double acceleration_mps2 = model.drivers.front().give_way.approach_acceleration_mps2;
-        soonest.keep_earlier(earliest_arrival_s(distance_m, v.speed_mps[at(slot)], acceleration_mps2, limit_mps), slot);
+        soonest.keep_earlier(earliest_arrival_s(distance_m, v.speed_mps[at(slot)], search.acceleration_mps2, limit_mps),
+                             slot);
     };
     for (const int upstream_connection : model.connections_to.of(here.lane)) {
         const LanePlan& connection = state.plan.lane(upstream_connection);
-        if (here.to_area_m > horizon_s * connection.limit_mps) continue;
+        if (here.to_area_m > search.horizon_s * connection.limit_mps) continue;
         const LaneBlock& block = state.blocks[at(upstream_connection)];
         const double limit_mps = state.plan.lane(here.lane).limit_mps;
         if (block.count > 0) {
@@ -152,28 +153,27 @@ void look_upstream(const Model& model, const State& state, const Upstream& here,
         const LaneBlock& origin_block = state.blocks[at(connection.origin)];
         for (int slot = origin_block.first; slot < origin_block.past_last(); ++slot) {
             const double distance_m = from_m - v.position_m[at(slot)];
-            if (distance_m > horizon_s * limit_mps) break;
+            if (distance_m > search.horizon_s * limit_mps) break;
             if (v.next_lane[at(slot)] == upstream_connection) {
                 consider(slot, distance_m, limit_mps);
                 break;
             }
         }
-        look_upstream(model, state, {connection.origin, upstream_connection, from_m, here.depth + 1}, horizon_s,
-                      soonest);
+        look_upstream(model, state, {connection.origin, upstream_connection, from_m, here.depth + 1}, search, soonest);
     }
 }
 
 }  // namespace
 
-Arrival next_arrival(const Model& model, const State& state, const Conflict& conflict, double horizon_s,
-                     bool ignores_stopped) {
+Arrival next_arrival(const Model& model, const State& state, const Conflict& conflict, const ArrivalSearch& search) {
     const VehicleArrays& v = state.vehicles;
     const LanePlan& other = state.plan.lane(conflict.other);
     const LanePlan& origin = state.plan.lane(other.origin);
-    const double acceleration_mps2 = model.drivers.front().give_way.approach_acceleration_mps2;
     const int stopping = vehicle_stopping_at_signal(state, other.origin, conflict.other);
     const int held = vehicle_held_at_rest(model, state, other.origin);
-    const auto is_ignored = [&](int slot) { return ignores_stopped && v.speed_mps[at(slot)] < kCrawlingSpeed_mps; };
+    const auto is_ignored = [&](int slot) {
+        return search.ignores_stopped && v.speed_mps[at(slot)] < kCrawlingSpeed_mps;
+    };
     Arrival soonest;
     for (const JunctionOccupant& occupant : occupants_of(state, conflict.other)) {
         if (occupant.front_m > conflict.other_from_m) continue;  // in the area, see blocks_area()
@@ -184,7 +184,7 @@ Arrival next_arrival(const Model& model, const State& state, const Conflict& con
         }
         const double distance_m = conflict.other_from_m - occupant.front_m;
         const double in_s =
-            earliest_arrival_s(distance_m, v.speed_mps[at(occupant.slot)], acceleration_mps2, other.limit_mps);
+            earliest_arrival_s(distance_m, v.speed_mps[at(occupant.slot)], search.acceleration_mps2, other.limit_mps);
         soonest.keep_earlier(in_s, occupant.slot);
     }
     const LaneBlock& block = state.blocks[at(other.origin)];
@@ -192,16 +192,16 @@ Arrival next_arrival(const Model& model, const State& state, const Conflict& con
         return soonest;
     for (int slot = block.first; slot < block.past_last(); ++slot) {
         const double distance_m = origin.length_m + conflict.other_from_m - v.position_m[at(slot)];
-        if (distance_m > horizon_s * origin.limit_mps) break;
+        if (distance_m > search.horizon_s * origin.limit_mps) break;
         if (slot == stopping) break;
         if (slot == held) return soonest;
         if (v.position_m[at(slot)] > origin.stop_line_m || v.next_lane[at(slot)] != conflict.other) continue;
         if (is_ignored(slot)) break;
-        soonest.keep_earlier(earliest_arrival_s(distance_m, v.speed_mps[at(slot)], acceleration_mps2, other.limit_mps),
-                             slot);
+        soonest.keep_earlier(
+            earliest_arrival_s(distance_m, v.speed_mps[at(slot)], search.acceleration_mps2, other.limit_mps), slot);
         return soonest;
     }
-    look_upstream(model, state, {other.origin, conflict.other, origin.length_m + conflict.other_from_m, 0}, horizon_s,
+    look_upstream(model, state, {other.origin, conflict.other, origin.length_m + conflict.other_from_m, 0}, search,
                   soonest);
     return soonest;
 }

@@ -16,8 +16,8 @@ inline bool had_to_wait(const State& state, int slot) {
     return state.vehicles.record[at(slot)].yield_tick >= state.tick - 1;
 }
 
-// Returns true if the vehicle had to wait (had_to_wait()) and is slower than kCrawlingSpeed_mps (1 m/s). A yielding vehicle is not expected to arrive soon, because it lets
-// other vehicles go first.
+// Returns true if the vehicle had to wait (had_to_wait()) and is slower than kCrawlingSpeed_mps (1 m/s). A yielding
+// vehicle is not expected to arrive soon, because it lets other vehicles go first.
 bool is_yielding(const State& state, int slot);
 
 // Returns true if the vehicle yields (is_yielding()) and the position where it waits is at or upstream of `area_m`, the
@@ -50,13 +50,19 @@ struct Arrival {
         if (other_time_s < time_s) *this = {other_time_s, other_slot};
     }
 };
+
+// How a yielding vehicle looks for the next arrival.
+struct ArrivalSearch {
+    double horizon_s = 0.0;          // time within which vehicles from further upstream can arrive
+    double acceleration_mps2 = 0.0;  // assumed acceleration of arriving vehicles, up to the speed limit
+    bool ignores_stopped = false;    // true: ignores all vehicles slower than kCrawlingSpeed_mps
+};
+
 // Returns the next arrival of a vehicle at the conflict area on connection `conflict.other`. The search covers the
-// connection, its approach lane, and the lanes further upstream from which a vehicle can arrive within `horizon_s`. The
-// search ignores vehicles that yield to others than intruders (YieldReason::intruder), stop for the signal or are in a
-// queue. In imported networks the search also ignores vehicles that the keep-clear rule holds at rest. `ignores_stopped`: the search also
-// ignores all vehicles slower than kCrawlingSpeed_mps. Vehicles behind an ignored vehicle, on the same connection or
+// connection, its approach lane, and the lanes further upstream. The search ignores vehicles that yield to others than
+// intruders (YieldReason::intruder), stop for the signal or are in a queue. In imported networks the search also ignores
+// vehicles that the keep-clear rule holds at rest. Vehicles behind an ignored vehicle, on the same connection or
 // approach lane, are ignored, too.
-Arrival next_arrival(const Model& model, const State& state, const Conflict& conflict, double horizon_s,
-                     bool ignores_stopped = false);
+Arrival next_arrival(const Model& model, const State& state, const Conflict& conflict, const ArrivalSearch& search);
 
 }  // namespace stopline

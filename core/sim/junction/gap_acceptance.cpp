@@ -128,12 +128,15 @@ GapBlocker find_gap_blocker(const Model& model, State& state, Partition& part, i
     } else if (const int winner = yield_cycle_winner(model, state, lane, v); winner >= 0) {
         return {winner, YieldReason::intruder};
     }
+    const double acceleration_mps2 = model.driver_of(arrays.policy[at(v.slot)]).give_way.approach_acceleration_mps2;
     Arrival next;
     double next_needed_s = 0.0;
     for (const Conflict& conflict : state.plan.conflicts(lane)) {
         if (!conflict.yields || v.front_m > conflict.from_m) continue;
         const double until_s = needed_time_s(model, state, lane, conflict, v, wait_m, delay_s, has_begun);
-        const Arrival arrival = next_arrival(model, state, conflict, until_s, resolution != nullptr);
+        const Arrival arrival = next_arrival(
+            model, state, conflict,
+            {.horizon_s = until_s, .acceleration_mps2 = acceleration_mps2, .ignores_stopped = resolution != nullptr});
         next.keep_earlier(arrival.time_s, arrival.slot);
         next_needed_s = std::max(next_needed_s, until_s);
         if (arrival.time_s < until_s) return {arrival.slot, YieldReason::priority};

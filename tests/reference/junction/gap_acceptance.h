@@ -41,7 +41,7 @@ public:
         for (const Conflict& conflict : w_.lane(c.connection).conflicts) {
             if (!conflict.yields || c.front_m > conflict.from_m) continue;
             const double until_s = needed_s(c, conflict, wait_m, delay_s, had_gap && !c.is_stopped());
-            const Arrival arrival = next_arrival(conflict, until_s, resolution != nullptr);
+            const Arrival arrival = next_arrival(v, conflict, until_s, resolution != nullptr);
             if (arrival.time_s >= until_s) continue;
             ++w_.situations.gaps_refused;
             return {arrival.vehicle, WaitReason::priority};
@@ -156,7 +156,9 @@ private:
         return nullptr;
     }
 
-    double approach_mps2() const { return w_.common_driver().give_way.approach_acceleration_mps2; }
+    double approach_mps2(const Vehicle& yielding) const {
+        return w_.driver(yielding).give_way.approach_acceleration_mps2;
+    }
 
     // Returns the vehicle that stops at a line, so that nobody behind it reaches the connection; null if there is none.
     // At a green signal, only a vehicle with another signal counts.
@@ -168,10 +170,11 @@ private:
         return w_.light(w_.group_of(approach, stopping.next_lane)) == Light::green ? nullptr : &stopping;
     }
 
-    // Returns the next arrival at a conflict area on the other connection: on the connection, on its approach lane, or
-    // from upstream within `horizon_s`. Vehicles that let others go or stand in a queue do not arrive soon, nor do
-    // vehicles behind them. `ignores_stopped`: nor do slow vehicles.
-    Arrival next_arrival(const Conflict& conflict, double horizon_s, bool ignores_stopped) const {
+    // Returns the next arrival at a conflict area on the other connection, as the vehicle `yielding` expects it: on the
+    // connection, on its approach lane, or from upstream within `horizon_s`. Vehicles that let others go or are in a
+    // queue do not arrive soon, nor do vehicles behind them. `ignores_stopped`: nor do slow vehicles.
+    Arrival next_arrival(const Vehicle& yielding, const Conflict& conflict, double horizon_s,
+                         bool ignores_stopped) const {
         const Lane& other = w_.lane(conflict.other);
         Lane& approach = w_.lane(other.origin);
         const Vehicle* const stopping = stopping_at_signal(approach, conflict.other);
@@ -184,7 +187,8 @@ private:
             if (waits || &v == stopping || is_ignored(v) || is_behind_yielding_vehicle(w_, conflict.other, occupant))
                 return soonest;
             const double distance_m = conflict.other_from_m - occupant.front_m;
-            soonest.keep_earlier(earliest_arrival_s(distance_m, v.speed_mps, approach_mps2(), other.limit_mps), v);
+            soonest.keep_earlier(earliest_arrival_s(distance_m, v.speed_mps, approach_mps2(yielding), other.limit_mps),
+                                 v);
         }
         if (!approach.vehicles.empty() &&
             (is_blocked_by_leader(w_, approach.vehicles.front()) || lets_others_go(w_, approach.vehicles.front())))
@@ -198,10 +202,11 @@ private:
             if (w_.is_imported && is_held && v.is_slow()) return soonest;
             if (v.position_m > approach.stop_line_m || v.next_lane != conflict.other) continue;
             if (is_ignored(v)) break;
-            soonest.keep_earlier(earliest_arrival_s(distance_m, v.speed_mps, approach_mps2(), other.limit_mps), v);
+            soonest.keep_earlier(earliest_arrival_s(distance_m, v.speed_mps, approach_mps2(yielding), other.limit_mps),
+                                 v);
             return soonest;
         }
-        look_upstream({approach.number, conflict.other, to_area_m, 0}, horizon_s, soonest);
+        look_upstream(yielding, {approach.number, conflict.other, to_area_m, 0}, horizon_s, soonest);
         return soonest;
     }
 
@@ -213,7 +218,7 @@ private:
     };
 
     // Searches the lanes upstream of a lane for moving vehicles that will take the connection.
-    void look_upstream(const Upstream& here, double horizon_s, Arrival& soonest) const {
+    void look_upstream(const Vehicle& yielding, const Upstream& here, double horizon_s, Arrival& soonest) const {
         constexpr int kMaxDepth = 3;
         if (here.depth == kMaxDepth) return;
         const double limit_mps = w_.lane(here.lane).limit_mps;
@@ -222,7 +227,7 @@ private:
             if (v.is_slow() || distance_m > horizon_s * limit_mps) return;
             const bool is_unknown = v.trip < 0 && v.following_turn == Turn::none;
             if (here.depth == 0 && !is_unknown && v.following_turn != turn) return;
-            soonest.keep_earlier(earliest_arrival_s(distance_m, v.speed_mps, approach_mps2(), limit_mps), v);
+            soonest.keep_earlier(earliest_arrival_s(distance_m, v.speed_mps, approach_mps2(yielding), limit_mps), v);
         };
         for (const int number : w_.connections_to(here.lane)) {
             Lane& connection = w_.lane(number);
@@ -237,7 +242,7 @@ private:
             const auto takes_it = [&](const Vehicle& v) { return v.next_lane == number; };
             const auto first = std::find_if(origin.vehicles.begin(), origin.vehicles.end(), takes_it);
             if (first != origin.vehicles.end()) consider(*first, from_m - first->position_m);
-            look_upstream({connection.origin, number, from_m, here.depth + 1}, horizon_s, soonest);
+            look_upstream(yielding, {connection.origin, number, from_m, here.depth + 1}, horizon_s, soonest);
         }
     }
 

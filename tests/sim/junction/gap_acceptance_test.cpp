@@ -112,7 +112,7 @@ TEST_P(GapAcceptance, VehicleAtTheStartOfTheAreaArrivesNow) {
             SparseLists<JunctionOccupant>& occupants = state.partitions[0].occupants;
             occupants.clear(state.junctions.occupants_place);
             occupants.add(priority_, {slot, front_m, front_m - 5.0, 0}, state.junctions.occupants_place);
-            return next_arrival(model_, state, conflict, 10.0);
+            return next_arrival(model_, state, conflict, {.horizon_s = 10.0, .acceleration_mps2 = 2.0});
         };
         EXPECT_EQ(arrival_with(conflict.other_from_m).slot, slot);
         EXPECT_EQ(arrival_with(conflict.other_from_m).time_s, 0.0);
