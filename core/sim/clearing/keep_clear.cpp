@@ -80,8 +80,7 @@ namespace {
 // this lane. This is the decision of the present step if the lane comes earlier in the order of lanes, and otherwise
 // that of an earlier step. Slots may have changed since then, so the vehicle is identified by its id.
 bool stops_at_line(const State& state, int lane, int slot) {
-    return state.blocks[at(lane)].has(slot) &&
-           state.vehicles.id[at(slot)] == state.stop_lines.lines[at(lane)].stop_id;
+    return state.blocks[at(lane)].has(slot) && state.vehicles.id[at(slot)] == state.stop_lines.lines[at(lane)].stop_id;
 }
 
 // Returns true if `occupant`, a vehicle on connection `conflict.other`, must leave the conflict area before vehicles of

@@ -152,7 +152,8 @@ void list_approaching(const Model& model, State& state, Partition& part, int ind
         // A vehicle with priority needs no decision while no vehicle is on a conflicting connection. In imported
         // networks a vehicle with priority may still have to wait for a vehicle without priority that is too fast to
         // stop.
-        if (!model.is_imported() && !connection_plan.yields && !state.junctions.occupied.has_any(state.plan.conflicting(next)))
+        if (!model.is_imported() && !connection_plan.yields &&
+            !state.junctions.occupied.has_any(state.plan.conflicting(next)))
             continue;
         const DriverPlan& driver = model.driver_of(v.policy[at(slot)]);
         double to_area_m = to_end_m + connection_plan.first_conflict_m - driver.give_way.margin_m;

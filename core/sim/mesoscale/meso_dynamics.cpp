@@ -45,8 +45,8 @@ double stopping_speed_mps(const Model& model, const VehicleArrays& v, int slot, 
     const FollowingBraking braking = stop_line_braking(model, policy);
     const double max_braking_mps2 = model.driver_of(policy).tables.cacc.deceleration_emergency_mps2;
     const double lowest_mps = v.speed_mps[at(slot)] - max_braking_mps2 * model.step_s;
-    return std::max(
-        braking_speed_mps(braking.deceleration_mps2, braking.reaction_s, std::max(room_m, 0.0), 0.0), lowest_mps);
+    return std::max(braking_speed_mps(braking.deceleration_mps2, braking.reaction_s, std::max(room_m, 0.0), 0.0),
+                    lowest_mps);
 }
 
 double leading_speed_mps(const Model& model, int policy, double speed_mps, double limit_mps) {

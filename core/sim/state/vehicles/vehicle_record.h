@@ -37,12 +37,12 @@ inline constexpr int kNeverYielded_tick = -2;
 // A connection is a lane inside an intersection.
 struct VehicleRecord {
     int route = -1;
-    int route_index = 0;               // index of the current lane in the route
-    int previous_lane = -1;            // lane before the current one; -1: the vehicle was inserted on the current lane
-    int second_previous_lane = -1;     // lane before previous_lane; -1: none
-    int leader_id = -1;                // id of the vehicle that the radar tracks; -1: none
-    int accepted_gap_on = -1;          // connection on which the vehicle has accepted a gap; -1: none
-    int junction_entry_tick = 0;       // tick at which the vehicle most recently passed a stop line
+    int route_index = 0;            // index of the current lane in the route
+    int previous_lane = -1;         // lane before the current one; -1: the vehicle was inserted on the current lane
+    int second_previous_lane = -1;  // lane before previous_lane; -1: none
+    int leader_id = -1;             // id of the vehicle that the radar tracks; -1: none
+    int accepted_gap_on = -1;       // connection on which the vehicle has accepted a gap; -1: none
+    int junction_entry_tick = 0;    // tick at which the vehicle most recently passed a stop line
     // Latest tick at which the vehicle had to wait before a conflict area or at a stop sign.
     int yield_tick = kNeverYielded_tick;
     float yield_position_m = 0.0F;     // position of the wait at yield_tick, from the start of the connection
