@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -86,6 +87,10 @@ struct GiveWaySettings {
     bool operator==(const GiveWaySettings&) const = default;
 };
 
+// Whether and how vehicles on the target lane open a gap for a mandatory lane change. cooperative: vehicles with V2V open
+// it on request.
+enum class GapOpening : std::uint8_t { off, on, cooperative };
+
 // Lane changes (sim/lane_change/lane_change.cpp).
 struct LaneChangeSettings {
     // Mandatory changes. A vehicle that needs n lane changes begins to look for a gap when its usable distance is
@@ -103,9 +108,8 @@ struct LaneChangeSettings {
     // Koutsopoulos, Ben-Akiva 2003, "Modeling integrated lane-changing behavior", Transportation Research Record 1857).
     // These 4 m are about 0.3 of the 12 m that a vehicle drives at 50 km/h within the time gap of 0.87 s.
     double urgent_gap_share = 0.3;
-    std::string look_ahead = "on";  // off | on: vehicles also choose lanes for the turn after the next one
-    // off | on | cooperative: whether and how vehicles on the target lane open a gap for mandatory changes
-    std::string gap_opening = "on";
+    std::string look_ahead = "on";   // off | on: vehicles also choose lanes for the turn after the next one
+    std::string gap_opening = "on";  // off | on | cooperative, see GapOpening
     double courtesy = 1.0;  // cooperative: probability with which a driver without V2V opens a gap as with `on`
     // Discretionary changes: MOBIL (Kesting, Treiber, Helbing 2007). MOBIL rates a change by the accelerations that
     // result from the intelligent driver model (IDM) with the desired gap of the spacing policy.
@@ -118,6 +122,12 @@ struct LaneChangeSettings {
     double acceleration_mps2 = 1.5;  // maximum acceleration of the IDM
     double deceleration_mps2 = 2.0;  // comfortable deceleration of the IDM
     double pause_s = 5.0;            // no discretionary change within this time after any change
+
+    bool looks_ahead() const { return look_ahead != "off"; }
+    GapOpening gap_opening_value() const {
+        if (gap_opening == "cooperative") return GapOpening::cooperative;
+        return gap_opening == "on" ? GapOpening::on : GapOpening::off;
+    }
 
     bool operator==(const LaneChangeSettings&) const = default;
 };
@@ -157,6 +167,8 @@ struct SpeedAdviceSettings {
     double range_m = 300.0;           // distance to the stop line within which the vehicle gets messages
     double min_speed_mps = 20 / 3.6;  // lowest advised speed
     double deceleration_mps2 = 1.0;   // strongest braking towards the advised speed
+
+    bool is_on() const { return mode == "glosa"; }
 
     bool operator==(const SpeedAdviceSettings&) const = default;
 };

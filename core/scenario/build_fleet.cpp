@@ -135,6 +135,9 @@ DriverPlan driver_plan(const DriverSettings& settings, const PowertrainTables& v
     driver.give_way = settings.give_way;
     driver.lane_change = settings.lane_change;
     driver.speed_advice = settings.speed_advice;
+    driver.looks_ahead = settings.lane_change.looks_ahead();
+    driver.gap_opening = settings.lane_change.gap_opening_value();
+    driver.has_speed_advice = settings.speed_advice.is_on();
     driver.hesitation_s = is_human ? std::max(settings.free_drive.hesitation_s, settings.human.start_reaction_s)
                                    : settings.free_drive.hesitation_s;
     driver.hesitation_ticks = to_ticks(driver.hesitation_s, step_s);
@@ -162,7 +165,7 @@ void add_vehicles_and_drivers(const std::vector<FleetClass>& classes, Model& mod
                            [&](const Lane& lane) { return vehicle.maximum_speed_mps < lane.limit_mps; });
     };
     model.has_speed_advice = std::any_of(model.drivers.begin(), model.drivers.end(),
-                                         [](const DriverPlan& driver) { return driver.speed_advice.mode == "glosa"; });
+                                         [](const DriverPlan& driver) { return driver.has_speed_advice; });
     model.has_speed_limiters = std::any_of(model.vehicles.begin(), model.vehicles.end(), limits_speed);
 }
 

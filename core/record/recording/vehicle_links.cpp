@@ -45,7 +45,7 @@ void add_refusals(const State& state, int kind, std::vector<VehicleLink>& links)
 
 bool has_gap_agreements(const Model& model) {
     return std::any_of(model.drivers.begin(), model.drivers.end(), [](const DriverPlan& driver) {
-        return !driver.is_human && driver.lane_change.gap_opening == "cooperative";
+        return !driver.is_human && driver.gap_opening == GapOpening::cooperative;
     });
 }
 

@@ -9,8 +9,9 @@ namespace {
 
 // Returns true if some drivers ask for gaps by V2V.
 bool opens_gaps_cooperatively(const Scenario& scenario) {
-    return any_driver(scenario,
-                      [](const DriverSettings& driver) { return driver.lane_change.gap_opening == "cooperative"; });
+    return any_driver(scenario, [](const DriverSettings& driver) {
+        return driver.lane_change.gap_opening_value() == GapOpening::cooperative;
+    });
 }
 
 }  // namespace

@@ -355,7 +355,7 @@ void init_gap_cooperation(const Model& model, State& state) {
     bool is_on = false;
     for (int policy = 0; policy < static_cast<int>(model.policies.size()); ++policy) {
         const DriverPlan& driver = model.driver_of(policy);
-        const bool cooperates = !driver.is_human && driver.lane_change.gap_opening == "cooperative";
+        const bool cooperates = !driver.is_human && driver.gap_opening == GapOpening::cooperative;
         cooperation.cooperates.push_back(cooperates ? 1 : 0);
         is_on = is_on || cooperates;
     }

@@ -87,7 +87,7 @@ private:
     // Returns true if the vehicle in `slot` opens a gap for `me` without a request.
     bool helps(int slot, const LaneChangeRequest& me) const {
         const DriverPlan& driver = model_.driver_of(v_.policy[at(slot)]);
-        if (driver.lane_change.gap_opening != "cooperative") return driver.lane_change.gap_opening == "on";
+        if (driver.gap_opening != GapOpening::cooperative) return driver.gap_opening == GapOpening::on;
         // Vehicles with V2V open gaps on request. Only a vehicle that waits almost at rest needs no request.
         if (!driver.is_human) return me.speed_mps < kMinSpeed_mps;
         return random_uniform(model_.seed, static_cast<std::uint64_t>(v_.id[at(slot)]),

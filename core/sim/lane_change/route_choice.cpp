@@ -126,7 +126,7 @@ int draw_route(const Model& model, State& state, int inlet, std::int64_t k, bool
 
 void draw_later_turns(const Model& model, State& state, int lane, int slot, bool chose_lane) {
     VehicleRecord& record = state.vehicles.record[at(slot)];
-    if (model.driver_of(state.vehicles.policy[at(slot)]).lane_change.look_ahead == "off") return;
+    if (!model.driver_of(state.vehicles.policy[at(slot)]).looks_ahead) return;
     if (state.vehicles.itinerary_of(at(slot)).path >= 0) {
         set_planned_turns(model, state, slot);
         update_preferred_lane(model, state, lane, slot);

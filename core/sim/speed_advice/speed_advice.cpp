@@ -35,15 +35,15 @@ public:
         for (int slot = block.first; slot < block.past_last(); ++slot) {
             const double to_line_m = line_m_ - v.position_m[at(slot)];
             if (to_line_m <= 0.0) continue;
-            const SpeedAdviceSettings& advice = model_.driver_of(v.policy[at(slot)]).speed_advice;
+            const DriverPlan& driver = model_.driver_of(v.policy[at(slot)]);
             if (v.next_lane[at(slot)] < 0) return;
             const bool is_stopped = v.speed_mps[at(slot)] < kStoppedSpeed_mps;
             const double arrival_s = arrival_in_s(slot, to_line_m);
             if (!find_green(slot, is_stopped ? 0.0 : arrival_s)) return;
             const double passage_s = start_s_ + queue_s_;
             if (!is_stopped && !would_brake(slot, arrival_s, passage_s)) continue;
-            if (!is_stopped && advice.mode == "glosa" && to_line_m <= advice.range_m) {
-                return slow_down(slot, to_line_m, passage_s, advice);
+            if (!is_stopped && driver.has_speed_advice && to_line_m <= driver.speed_advice.range_m) {
+                return slow_down(slot, to_line_m, passage_s, driver.speed_advice);
             }
             add_to_queue(slot);
         }

@@ -65,6 +65,10 @@ struct DriverPlan {
     HumanSettings human;
     SpeedAdviceSettings speed_advice;
     bool is_human = false;  // true: a human driver (driver/human.h); false: an automated vehicle
+    // Values of lane_change and speed_advice that a step would have to derive from texts.
+    bool looks_ahead = true;  // chooses lanes for the turn after the next one
+    GapOpening gap_opening = GapOpening::on;
+    bool has_speed_advice = false;
     // Reaction time of the first vehicle at a stop line when its signal turns green.
     double hesitation_s = 0.0;
     std::int64_t hesitation_ticks = 0;  // the same in ticks
