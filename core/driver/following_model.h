@@ -133,9 +133,10 @@ struct FollowingName {
 //
 //   R following_speed_mps(k, in, random, dt)
 //       Returns the highest next speed that the leader allows.
-//   R leader_speed_mps(k, in, following_mps, relays, foresees)
+//   R leader_speed_mps(k, in, following_mps, relays, uses_following_speed)
 //       Returns the highest next speed that the vehicle ahead allows to a platoon leader. `following_mps` is the result
-//       of following_speed_mps(). `relays` and `foresees` are members of MesoStep (sim/mesoscale/meso_kernels.h).
+//       of following_speed_mps(). `relays` and `uses_following_speed` are MesoStep::relays and
+//       MesoStep::leaders_use_following_speed (sim/mesoscale/meso_kernels.h).
 //   R desired_speed_mps<power_limit>(k, in, following_mps, dt, least_mps2)
 //       Returns the desired next speed, in free driving or behind a leader. `least_mps2` is a lower bound of the
 //       acceleration on fast lanes. `power_limit` is always true, except for models with fast versions (see below).
@@ -161,7 +162,7 @@ concept CarFollowing = std::is_trivially_copyable_v<M> &&
     { model.has_power_limit() } -> std::same_as<bool>;  // constant power can lower the acceleration
     { model.in_sumo() } -> std::same_as<SumoFollowing>;
     // True: following_speed_mps() is also the result of leader_speed_mps() in runs with V2V start messages.
-    { model.leader_foresees() } -> std::same_as<bool>;
+    { model.leader_uses_following_speed() } -> std::same_as<bool>;
 };
 
 // FollowingAt gives a model its number in the list of all models (sim/mesoscale/following_types.h). The file of the
@@ -183,7 +184,7 @@ struct FollowingFamily {
     double (*smallest_gap_m)(const FollowingModel& model);
     FollowingBraking (*braking)(const FollowingModel& model);
     bool (*relays_starts)(const FollowingModel& model);
-    bool (*leader_foresees)(const FollowingModel& model);
+    bool (*leader_uses_following_speed)(const FollowingModel& model);
     SumoFollowing (*in_sumo)(const FollowingModel& model);
     // Returns the kernels of the model. If `scalar` is true, they compute one vehicle at a time.
     const MesoKernels& (*kernels)(bool scalar);
@@ -205,7 +206,7 @@ public:
     double smallest_gap_m() const { return family_->smallest_gap_m(*this); }
     FollowingBraking braking() const { return family_->braking(*this); }
     bool relays_starts() const { return family_->relays_starts(*this); }
-    bool leader_foresees() const { return family_->leader_foresees(*this); }
+    bool leader_uses_following_speed() const { return family_->leader_uses_following_speed(*this); }
     SumoFollowing in_sumo() const { return family_->in_sumo(*this); }
 
     // Return the trait struct. M must be the struct of the family.
@@ -235,7 +236,7 @@ constexpr FollowingFamily following_family(const FollowingName& text, const Meso
             [](const FollowingModel& model) { return model.as<M>().smallest_gap_m(); },
             [](const FollowingModel& model) { return model.as<M>().braking(); },
             [](const FollowingModel& model) { return model.as<M>().relays_starts(); },
-            [](const FollowingModel& model) { return model.as<M>().leader_foresees(); },
+            [](const FollowingModel& model) { return model.as<M>().leader_uses_following_speed(); },
             [](const FollowingModel& model) { return model.as<M>().in_sumo(); },
             kernels};
 }

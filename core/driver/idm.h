@@ -81,7 +81,7 @@ struct Idm : IdmParameters {
     FollowingBraking braking() const { return {deceleration_mps2, kBrakingReaction_s}; }
     bool relays_starts() const { return false; }
     bool has_power_limit() const { return false; }
-    bool leader_foresees() const { return true; }
+    bool leader_uses_following_speed() const { return true; }
     SumoFollowing in_sumo() const {
         return {"IDM", acceleration_mps2, deceleration_mps2, time_gap_s, standstill_gap_m, 0.0, true};
     }
@@ -97,7 +97,7 @@ struct Idm : IdmParameters {
 
     template <class R>
     STOPLINE_INLINE static R leader_speed_mps(const Idm& /*k*/, const FollowingInputOf<R>& /*in*/,
-                                              const R& following_mps, bool /*relays*/, bool /*foresees*/) {
+                                              const R& following_mps, bool /*relays*/, bool /*uses_following_speed*/) {
         return following_mps;
     }
 

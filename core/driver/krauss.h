@@ -80,7 +80,7 @@ struct Krauss {
     bool relays_starts() const { return constant_distance; }
     // If no model has a power limit, the kernels save a division per vehicle.
     bool has_power_limit() const { return constant_power_speed_mps < 100.0; }
-    bool leader_foresees() const { return transient_gap_s2 == 0.0; }
+    bool leader_uses_following_speed() const { return transient_gap_s2 == 0.0; }
     SumoFollowing in_sumo() const {
         return {"Krauss", acceleration_mps2, deceleration_mps2, reaction_s, standstill_gap_m + band_m,
                 dawdling, !constant_distance};
@@ -90,7 +90,7 @@ struct Krauss {
     static R following_speed_mps(const Model& k, const FollowingInputOf<R>& in, const Random& random, double dt);
     template <class R, class Model>
     static R leader_speed_mps(const Model& k, const FollowingInputOf<R>& in, const R& following_mps, bool relays,
-                              bool foresees);
+                              bool uses_following_speed);
     template <bool power_limit, class R, class Model>
     static R desired_speed_mps(const Model& k, const FollowingInputOf<R>& in, const R& following_mps, double dt,
                                const R& least_mps2);
@@ -142,8 +142,8 @@ STOPLINE_INLINE R Krauss::following_speed_mps(const Model& k, const FollowingInp
 
 template <class R, class Model>
 STOPLINE_INLINE R Krauss::leader_speed_mps(const Model& k, const FollowingInputOf<R>& in, const R& following_mps,
-                                           bool relays, bool foresees) {
-    if (foresees) return following_mps;
+                                           bool relays, bool uses_following_speed) {
+    if (uses_following_speed) return following_mps;
     return relays ? anticipated_safe_speed_mps(k, in, in.extra_gap_m)
                   : safe_speed_mps(k, in.gap_m, in.leader_speed_mps, in.extra_gap_m);
 }

@@ -65,7 +65,7 @@ protected:
         const int own_lane = lane(name);
         track_.place(own_lane, front_m, speed_mps);
         const std::size_t slot = at(state().blocks[at(own_lane)].last());
-        state().vehicles.stopped_since[slot] = static_cast<int>(state().tick);
+        state().vehicles.stopped_since_tick[slot] = static_cast<int>(state().tick);
         const Lane& road = track_.model().graph.lanes[at(own_lane)];
         const std::string next_lane =
             next.empty() && road.origin >= 0 ? track_.model().graph.lanes[at(road.next[0])].name : next;

@@ -62,7 +62,7 @@ TEST(RightOfWay, QueueBehindALeftTurnDoesNotHoldUpTheOppositeOne) {
     const Model model = build_model(scenario, 0);
     Simulation simulation(model);
     while (simulation.time_s() < 400.0) simulation.step();
-    EXPECT_LT(model.time_s(simulation.state().records.longest_in_junction), 66.0);  // one cycle
+    EXPECT_LT(model.time_s(simulation.state().records.longest_in_junction_ticks), 66.0);  // one cycle
     EXPECT_GT(simulation.state().records.exited, 400);
     EXPECT_TRUE(simulation.state().records.violations.none());
 }

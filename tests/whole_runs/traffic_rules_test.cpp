@@ -117,7 +117,7 @@ double longest_stop_inside_s(const std::string& scenario, const std::string& kee
         for (int slot = state.blocks[lane].first; slot < state.blocks[lane].past_last(); ++slot) {
             const auto i = static_cast<std::size_t>(slot);
             if (state.vehicles.speed_mps[i] > 0.1) continue;
-            longest_s = std::max(longest_s, model.time_s(state.tick - state.vehicles.stopped_since[i]));
+            longest_s = std::max(longest_s, model.time_s(state.tick - state.vehicles.stopped_since_tick[i]));
         }
     }
     return longest_s;

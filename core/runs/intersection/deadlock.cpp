@@ -38,14 +38,14 @@ void DeadlockSearch::observe(const State& state) {
         if (deadlock_->members.empty()) deadlock_->members = members_from(state, deadlock_->vehicle);
         return;
     }
-    if (state.records.longest_in_junction < limit_ticks_) return;
+    if (state.records.longest_in_junction_ticks < limit_ticks_) return;
     Deadlock found;
     found.to_s = model_.time_s(state.tick);
     std::int64_t earliest_tick = state.tick;
     for (std::size_t lane = 0; lane < state.plan.lane_order().size(); ++lane) {
         for (const JunctionOccupant& occupant : occupants_of(state, static_cast<int>(lane))) {
-            if (occupant.since >= earliest_tick) continue;
-            earliest_tick = occupant.since;
+            if (occupant.since_tick >= earliest_tick) continue;
+            earliest_tick = occupant.since_tick;
             found.lane = static_cast<int>(lane);
         }
     }

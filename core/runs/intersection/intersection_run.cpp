@@ -274,7 +274,7 @@ IntersectionResult run_intersection(const Scenario& scenario, std::size_t popula
                                  latest_green_start_s, model.time_s(model.signals[0].nominal_cycle_ticks),
                                  [&](int vehicle) { return sampler.has_queued(vehicle); });
     result.gaps_accepted = static_cast<std::int64_t>(state.records.gaps_accepted.size());
-    result.longest_in_junction_s = model.time_s(state.records.longest_in_junction);
+    result.longest_in_junction_s = model.time_s(state.records.longest_in_junction_ticks);
     result.starvations = state.congestion.delays.starvations;
     result.violations = state.records.violations;
     result.v2v = v2v_result(state.records, model.v2v_plan);

@@ -286,8 +286,8 @@ std::vector<DepartureDelays> approach_departures(const Model& model, const State
 
 // Smallest number of vehicles for which several threads share a step. With fewer vehicles, a step takes only some tens
 // of microseconds, and a second thread costs more than it saves.
-constexpr int kSharedFromMeso = 4000;
-constexpr int kSharedFromFull = 500;
+constexpr int kThreadsFromMeso = 4000;
+constexpr int kThreadsFromFull = 500;
 
 }  // namespace
 
@@ -306,7 +306,7 @@ NetworkResult run_network(const Scenario& scenario, std::size_t population,
     observation.prepare(model);
     HcmSampler::prepare(scenario, model);
     Simulation simulation(model, threads);
-    simulation.share_from(model.meso ? kSharedFromMeso : kSharedFromFull);
+    simulation.use_threads_from(model.meso ? kThreadsFromMeso : kThreadsFromFull);
     NetworkResult result;
     result.population = scenario.populations.at(population).name;
     result.complete = true;
@@ -346,7 +346,7 @@ NetworkResult run_network(const Scenario& scenario, std::size_t population,
     result.gap_counts = state.records.gap_counts;
     result.violations = state.records.violations;
     result.v2v = v2v_result(state.records, model.v2v_plan);
-    result.longest_in_junction_s = model.time_s(state.records.longest_in_junction);
+    result.longest_in_junction_s = model.time_s(state.records.longest_in_junction_ticks);
     result.vehicles_present = sampler.mean_present(result.measured.window);
     result.max_present = sampler.max_present();
     result.entered = state.records.entered;

@@ -54,7 +54,7 @@ double remaining_green_s(const Model& model, const State& state, int group) {
     return model.time_s(model.signals.programme(group).next_change_tick(state.tick) - state.tick);
 }
 
-double next_green_s(const Model& model, const State& state, int group) {
+double next_green_duration_s(const Model& model, const State& state, int group) {
     constexpr int kMaxStages = 8;
     const GroupProgramme& programme = model.signals.programme(group);
     std::int64_t begin = state.tick;

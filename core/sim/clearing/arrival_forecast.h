@@ -35,7 +35,7 @@ private:
 double remaining_green_s(const Model& model, const State& state, int group);
 
 // Returns how long the next green of the programme of a signal group lasts, s; 0: none.
-double next_green_s(const Model& model, const State& state, int group);
+double next_green_duration_s(const Model& model, const State& state, int group);
 
 // Returns the time in which a vehicle covers a distance if it accelerates constantly up to the speed limit.
 double travel_time_s(double distance_m, double speed_mps, double acceleration_mps2, double limit_mps);

@@ -136,8 +136,9 @@ private:
         return to_line_m(slot) <= decision_distance_m(model_.driver_of(v_.policy[at(slot)]), v_.speed_mps[at(slot)]);
     }
 
-    // Admits the vehicle in `slot` if it may enter. If it may not enter, but must decide now (`decides`), it is admitted
-    // if it can no longer stop, and else refused. Returns true if the vehicle is admitted. `slot` must be `end_`.
+    // Admits the vehicle in `slot` if it may enter. A vehicle that may not enter, but must decide now (`decides`), is
+    // admitted if it can no longer stop, and else refused. Returns true if the vehicle is admitted. `slot` must be
+    // `end_`.
     bool admit(int slot, bool decides) {
         const bool passes = is_on_last_edge(state_, slot) || light_of(slot) != Light::green;
         if (!passes && !may_enter(slot) && (!decides || can_hold(slot))) {
@@ -329,7 +330,7 @@ void add_claims(const Model& model, State& state, int lane) {
         if (next < 0 || state.plan.lane(next).origin != lane) break;
         const int group = state.plan.signal_group_for(lane, next);
         if (state.signals.lights[at(group)] == Light::green || v.position_m[at(slot)] > plan.stop_line_m) continue;
-        if (arrival_s > next_green_s(model, state, group)) break;
+        if (arrival_s > next_green_duration_s(model, state, group)) break;
         const bool is_urgent = was_refused_since(model, state, lane, slot, state.signals.green_start_tick[at(group)]);
         if (!(is_urgent || clearing.connections[at(next)].turns) || !has_v2v(state, slot)) continue;
         const int exit = state.plan.lane(next).exit;

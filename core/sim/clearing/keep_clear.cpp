@@ -105,7 +105,8 @@ int crossing_blocker(const Model& model, const State& state, int connection) {
         if (c.yields || c.other_yields) continue;
         for (const JunctionOccupant& occupant : occupants_of(state, c.other)) {
             if (v.speed_mps[at(occupant.slot)] >= kCrawlingSpeed_mps || !must_clear_first(state, c, occupant)) continue;
-            if (pass_after_ticks > 0 && state.tick - v.stopped_since[at(occupant.slot)] >= pass_after_ticks) continue;
+            if (pass_after_ticks > 0 && state.tick - v.stopped_since_tick[at(occupant.slot)] >= pass_after_ticks)
+                continue;
             return occupant.slot;
         }
     }

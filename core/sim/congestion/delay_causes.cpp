@@ -109,7 +109,7 @@ private:
             queue->cause = DelayCause::gridlock;
             queue->head = queue->first;
             queue->head_lane = queue->lane;
-            queue->ring_last = last;
+            queue->cycle_last = last;
             for (int slot = last; slot >= queue->first; --slot) members.emplace_back(v_.id[at(slot)], queue->lane);
             last = queue->blocker;
             queue = queue_ahead(*queue);
@@ -157,7 +157,7 @@ private:
                 vehicles[static_cast<std::size_t>(queue.cause)] += queue.count;
                 vehicles_upstream += count_upstream_of_area(queue);
                 earliest_tick = std::min(earliest_tick, queue.earliest_stop_tick);
-                // Further queues of a lane stand behind other vehicles, so they cannot starve.
+                // Further queues of a lane are behind other vehicles, so they cannot starve.
                 if (queue.lane != lane_ahead) watch_first(queue);
                 lane_ahead = queue.lane;
                 if (const int delayed = count_in_episode(queue); delayed > 0) add_to_episode(queue, delayed);
@@ -175,7 +175,7 @@ private:
         if (is_blocking(queue.cause)) return queue.count;
         const std::int64_t long_ticks = model_.rules.long_wait_ticks;
         if (long_ticks == 0 || now_ - queue.earliest_stop_tick < long_ticks) return 0;
-        const auto begin = v_.stopped_since.begin() + queue.first;
+        const auto begin = v_.stopped_since_tick.begin() + queue.first;
         return static_cast<int>(
             std::count_if(begin, begin + queue.count, [&](int since) { return now_ - since >= long_ticks; }));
     }
@@ -226,7 +226,7 @@ private:
     // observed blockage, so that a vehicle that is blocked at each green does not starve.
     std::int64_t unblocked_since(const StoppedQueue& queue) const {
         const LaneWatch& lane = watch_.lanes[at(queue.lane)];
-        return std::max({v_.stopped_since[at(queue.first)], lane.last_blocked_tick, lane.front_tick});
+        return std::max({v_.stopped_since_tick[at(queue.first)], lane.last_blocked_tick, lane.front_tick});
     }
 
     // Returns true if the first vehicle, which must be the queue head, has been stopped for
@@ -234,13 +234,13 @@ private:
     // waits for a lane change can starve, too.
     bool starves(const StoppedQueue& queue) const {
         const std::int64_t least_ticks = model_.rules.starvation_ticks;
-        return least_ticks > 0 && now_ - unblocked_since(queue) >= least_ticks && has_stood_two_cycles(queue);
+        return least_ticks > 0 && now_ - unblocked_since(queue) >= least_ticks && has_been_stopped_two_cycles(queue);
     }
 
-    // Returns true if the first vehicle has stood for two cycles of its signal without a blockage ahead, or has no
-    // signal. The time before the start of the signal programme does not count. The present cause does not matter,
+    // Returns true if the first vehicle has been stopped for two cycles of its signal without a blockage ahead, or has
+    // no signal. The time before the start of the signal programme does not count. The present cause does not matter,
     // because a vehicle that yields at green may have waited at red before.
-    bool has_stood_two_cycles(const StoppedQueue& queue) const {
+    bool has_been_stopped_two_cycles(const StoppedQueue& queue) const {
         const int group = state_.plan.signal_group_for(queue.lane, v_.next_lane[at(queue.first)]);
         if (group < 0) return true;
         const std::int64_t first_tick = model_.signals.programme(group).first_tick();
@@ -250,7 +250,7 @@ private:
 
     // Records that the first vehicle starves. If an entry for the same stop of the vehicle exists, updates this entry.
     void record_starvation(const StoppedQueue& queue) {
-        const double from_s = model_.time_s(v_.stopped_since[at(queue.first)]);
+        const double from_s = model_.time_s(v_.stopped_since_tick[at(queue.first)]);
         const int vehicle = v_.id[at(queue.first)];
         std::vector<Starvation>& found = log_.starvations;
         const auto known = std::find_if(found.rbegin(), found.rend(), [&](const Starvation& s) {

@@ -28,7 +28,7 @@ int exit_lane_ahead(const Model& model, const State& state, int lane, int slot) 
 
 void record_rule_use(const Model& model, State& state, RuleUse::Kind kind, int slot, int lane) {
     const VehicleArrays& v = state.vehicles;
-    const double stopped_s = model.time_s(state.tick - v.stopped_since[at(slot)]);
+    const double stopped_s = model.time_s(state.tick - v.stopped_since_tick[at(slot)]);
     state.congestion.delays.rule_uses.push_back({kind, model.time_s(state.tick), v.id[at(slot)], lane, -1, stopped_s});
 }
 
@@ -126,7 +126,7 @@ bool reinsert_teleported(const Model& model, State& state, int k) {
     set_route_index(model, state, slot, route_index);
     choose_next_route(model, state, target_lane, slot);
     record_rule_use(model, state, RuleUse::Kind::reinserted, slot, target_lane);
-    v.stopped_since[i] = static_cast<int>(state.tick);
+    v.stopped_since_tick[i] = static_cast<int>(state.tick);
     state.queues.standing[at(target_lane)].last_external_tick = static_cast<int>(state.tick);
     return true;
 }
@@ -136,7 +136,7 @@ bool reinsert_teleported(const Model& model, State& state, int k) {
 // for as long as a drive along the present target lane would take.
 void advance_target(const Model& model, State& state, int waiting, TeleportTarget& target) {
     const Lane& lane = model.graph.lanes[at(target.lane)];
-    const double waiting_s = model.time_s(state.tick - target.waiting_since);
+    const double waiting_s = model.time_s(state.tick - target.waiting_since_tick);
     if (lane.signal_group < 0 || waiting_s < lane.length_m / lane.limit_mps) return;
     if (trip_ends_on_next_edge(state, state.vehicles.itinerary_of(at(waiting)))) return;
     choose_next_route(model, state, target.lane, waiting);
@@ -172,8 +172,8 @@ void teleport_blocked_vehicles(const Model& model, State& state) {
         for (const int lane : part.occupied) {
             const LaneBlock& block = state.blocks[at(lane)];
             if (block.count == 0) continue;
-            const std::int64_t stopped = state.tick - state.vehicles.stopped_since[at(block.first)];
-            if (stopped >= rules.teleport_ticks) remove_for_teleport(model, state, lane);
+            const std::int64_t stopped_ticks = state.tick - state.vehicles.stopped_since_tick[at(block.first)];
+            if (stopped_ticks >= rules.teleport_ticks) remove_for_teleport(model, state, lane);
         }
     }
 }

@@ -109,7 +109,7 @@ private:
     int find_unmoved_blocker(const LastBlocker& last, int vehicle) const {
         if (last.vehicle != vehicle) return -1;
         const int slot = slot_on_lane(state_, last.blocker_lane, last.blocker);
-        return slot >= 0 && v_.stopped_since[at(slot)] <= last.tick ? slot : -1;
+        return slot >= 0 && v_.stopped_since_tick[at(slot)] <= last.tick ? slot : -1;
     }
 
     // Returns true if `lane` is a connection to the lane `exit`, or the approach lane of such a connection.
@@ -137,7 +137,7 @@ private:
     DelayWatch& watch_;
 };
 
-// Finds the stopped vehicles of one lane. Updates VehicleArrays::stopped_since.
+// Finds the stopped vehicles of one lane. Updates VehicleArrays::stopped_since_tick.
 class LaneScan {
 public:
     LaneScan(const Model& model, State& state, Partition& part)
@@ -153,11 +153,11 @@ public:
         const YieldStops& yield_stops = yield_stops_of(state_, lane);
         const double* const speed_mps = v_.speed_mps.data();
         const int* const id = v_.id.data();
-        int* const stopped_since = v_.stopped_since.data();
+        int* const stopped_since_tick = v_.stopped_since_tick.data();
         StoppedQueue* queue = nullptr;  // queue that contains the vehicle ahead; nullptr: that vehicle moves
         for (int slot = block.first; slot < block.past_last(); ++slot) {
             if (speed_mps[slot] >= kStoppedSpeed_mps) {
-                stopped_since[slot] = now_;
+                stopped_since_tick[slot] = now_;
                 queue = nullptr;
                 continue;
             }
@@ -170,8 +170,8 @@ public:
                 queue->earliest_stop_tick = now_;
             }
             ++queue->count;
-            queue->earliest_stop_tick = std::min(queue->earliest_stop_tick, stopped_since[slot]);
-            part_.stops += stopped_since[slot] == now_ - interval_ticks_ ? 1 : 0;
+            queue->earliest_stop_tick = std::min(queue->earliest_stop_tick, stopped_since_tick[slot]);
+            part_.stops += stopped_since_tick[slot] == now_ - interval_ticks_ ? 1 : 0;
             part_.stopped_ids.push_back(id[slot]);
         }
     }

@@ -6,9 +6,9 @@
 
 namespace stopline {
 
-// Lists the stopped vehicles of a partition as queues (Partition::stopped_queues). Sets VehicleArrays::stopped_since of
-// all moving vehicles of the partition to the present tick. Counts the vehicles that have stopped since the previous
-// call (Partition::stops).
+// Lists the stopped vehicles of a partition as queues (Partition::stopped_queues). Sets
+// VehicleArrays::stopped_since_tick of all moving vehicles of the partition to the present tick. Counts the vehicles
+// that have stopped since the previous call (Partition::stops).
 void find_stopped_vehicles(const Model& model, State& state, Partition& part);
 
 // Finds the blocker of the first vehicle of each queue of a partition, and the cause that stops the vehicle itself

@@ -57,7 +57,7 @@ int insert_vehicle(const Model& model, State& state, const NewVehicle& vehicle) 
 
 void finish_insertion(const Model& model, State& state, int lane, int slot) {
     VehicleArrays& v = state.vehicles;
-    v.stopped_since[at(slot)] = static_cast<int>(state.tick);
+    v.stopped_since_tick[at(slot)] = static_cast<int>(state.tick);
     initialise_sensors(v, slot, slot == state.blocks[at(lane)].first);
     state.queues.standing[at(lane)].last_external_tick = static_cast<int>(state.tick);
     ++state.records.entered;

@@ -35,24 +35,24 @@ struct ChainLink {
 
 class CycleSearch {
 public:
-    CycleSearch(const Model& model, const State& state, int lane, const Candidate& v)
+    CycleSearch(const Model& model, const State& state, int lane, const Candidate& candidate)
         : model_(model),
           state_(state),
-          arrays_(state.vehicles),
+          v_(state.vehicles),
           conflicts_(state.plan.conflicts(lane)),
-          v_(v),
-          margin_m_(margin_m(v.slot)),
-          length_m_(state.vehicles.length_m[at(v.slot)]),
+          candidate_(candidate),
+          margin_m_(margin_m(candidate.slot)),
+          length_m_(state.vehicles.length_m[at(candidate.slot)]),
           intersection_(state.plan.intersection_of(lane)) {
         for (const Conflict& conflict : conflicts_) {
-            if (conflict.from_m < v.front_m) continue;
+            if (conflict.from_m < candidate.front_m) continue;
             for_each_holder(conflict, [&](const ChainLink& link) { check_stop(conflict.from_m - margin_m_, link); });
         }
         int leader = -1;
         for (const JunctionOccupant& occupant : occupants_of(state_, lane)) {
-            if (occupant.rear_m < v.front_m) continue;
+            if (occupant.rear_m < candidate.front_m) continue;
             leader = occupant.slot;
-            if (is_crawling(leader)) check_stop(occupant.rear_m - standstill_gap_m(v.slot), {leader});
+            if (is_crawling(leader)) check_stop(occupant.rear_m - standstill_gap_m(candidate.slot), {leader});
         }
         if (leader >= 0 && !is_crawling(leader)) check_stop_behind(leader);
     }
@@ -60,10 +60,10 @@ public:
     const KeptOutArea& result() const { return result_; }
 
 private:
-    bool is_crawling(int slot) const { return arrays_.speed_mps[at(slot)] < kCrawlingSpeed_mps; }
-    double margin_m(int slot) const { return model_.driver_of(arrays_.policy[at(slot)]).give_way.margin_m; }
-    double standstill_gap_m(int slot) const { return arrays_.standstill_gap_m[at(slot)]; }
-    double length_m(int slot) const { return arrays_.length_m[at(slot)]; }
+    bool is_crawling(int slot) const { return v_.speed_mps[at(slot)] < kCrawlingSpeed_mps; }
+    double margin_m(int slot) const { return model_.driver_of(v_.policy[at(slot)]).give_way.margin_m; }
+    double standstill_gap_m(int slot) const { return v_.standstill_gap_m[at(slot)]; }
+    double length_m(int slot) const { return v_.length_m[at(slot)]; }
 
     // Returns true if the vehicle waits before the conflict area that starts at `area_m`, or can still stop there.
     bool can_wait_before(int slot, double front_m, double area_m) const {
@@ -73,16 +73,16 @@ private:
     // Returns true if the vehicle already brakes for the area, or for a position further upstream. Such a vehicle can
     // wait before the area, although its stop can deviate slightly from the planned one.
     bool brakes_for(int slot, double area_m) const {
-        return had_to_wait(state_, slot) && arrays_.record[at(slot)].yield_position_m <= static_cast<float>(area_m);
+        return had_to_wait(state_, slot) && v_.record[at(slot)].yield_position_m <= static_cast<float>(area_m);
     }
 
     // Returns true if the vehicle can stop before a conflict area at this distance. Only a crawling vehicle may use the
     // margin before the area. In the mesoscale mode, braking starts at once.
     bool can_stop(int slot, double distance_m) const {
         const double room_m = distance_m - (is_crawling(slot) ? 0.0 : margin_m(slot));
-        if (model_.meso) return can_stop_within(model_, arrays_.speed_mps[at(slot)], room_m);
-        const DriverPlan& driver = model_.driver_of(arrays_.policy[at(slot)]);
-        return can_stop_after_response(model_, arrays_, slot, room_m, driver.tables.cacc.deceleration_emergency_mps2);
+        if (model_.meso) return can_stop_within(model_, v_.speed_mps[at(slot)], room_m);
+        const DriverPlan& driver = model_.driver_of(v_.policy[at(slot)]);
+        return can_stop_after_response(model_, v_, slot, room_m, driver.tables.cacc.deceleration_emergency_mps2);
     }
 
     // Calls `visit` with a ChainLink for each vehicle of connection `conflict.other` that can block the conflict area:
@@ -92,7 +92,7 @@ private:
     void for_each_holder(const Conflict& conflict, const Visit& visit) const {
         for (const JunctionOccupant& occupant : occupants_of(state_, conflict.other)) {
             const int slot = occupant.slot;
-            if (occupant.rear_m >= conflict.other_to_m || slot == v_.slot) continue;
+            if (occupant.rear_m >= conflict.other_to_m || slot == candidate_.slot) continue;
             if (occupant.front_m > conflict.other_from_m && is_crawling(slot)) {
                 visit(ChainLink{slot});
             } else if (must_enter(slot, occupant.front_m, conflict.other_from_m)) {
@@ -110,9 +110,9 @@ private:
         const LaneBlock& block = state_.blocks[at(origin)];
         for (int slot = block.first; slot < block.past_last(); ++slot) {
             if (slot == state_.stop_lines.stop_slot[at(origin)]) return;
-            if (arrays_.position_m[at(slot)] > lane.stop_line_m) continue;
-            if (!must_enter(slot, arrays_.position_m[at(slot)] - lane.length_m, conflict.other_from_m)) return;
-            if (arrays_.next_lane[at(slot)] != conflict.other || slot == v_.slot) continue;
+            if (v_.position_m[at(slot)] > lane.stop_line_m) continue;
+            if (!must_enter(slot, v_.position_m[at(slot)] - lane.length_m, conflict.other_from_m)) return;
+            if (v_.next_lane[at(slot)] != conflict.other || slot == candidate_.slot) continue;
             visit(ChainLink{slot, conflict.other_from_m, conflict.other_to_m + length_m(slot)});
         }
     }
@@ -122,10 +122,10 @@ private:
     // stop: the candidate with the higher id reduces the distance of the other one by a reserve.
     bool must_enter(int slot, double front_m, double area_m) const {
         if (!can_wait_before(slot, front_m, area_m)) return true;
-        if (arrays_.id[at(slot)] > arrays_.id[at(v_.slot)] || brakes_for(slot, area_m)) return false;
+        if (v_.id[at(slot)] > v_.id[at(candidate_.slot)] || brakes_for(slot, area_m)) return false;
         constexpr double kReserve_s = 0.3;
-        const double acceleration_mps2 = std::max(static_cast<double>(arrays_.acceleration_mps2[at(slot)]), 0.0);
-        const double soon_mps = arrays_.speed_mps[at(slot)] + kReserve_s * acceleration_mps2;
+        const double acceleration_mps2 = std::max(static_cast<double>(v_.acceleration_mps2[at(slot)]), 0.0);
+        const double soon_mps = v_.speed_mps[at(slot)] + kReserve_s * acceleration_mps2;
         return !can_stop(slot, area_m - front_m - (kReserve_s + 2.0 * model_.step_s) * soon_mps);
     }
 
@@ -139,7 +139,7 @@ private:
 
     // Checks the areas that the candidate would block if it stopped behind its leader, which is still driving.
     void check_stop_behind(int leader) {
-        const double behind_m = length_m(leader) + standstill_gap_m(v_.slot);
+        const double behind_m = length_m(leader) + standstill_gap_m(candidate_.slot);
         for (const Conflict& area : conflicts_) {
             if (area.from_m >= result_.from_m) return;
             if (closes_cycle(area, {leader, area.from_m + behind_m, area.to_m + length_m_ + behind_m})) return;
@@ -150,7 +150,7 @@ private:
     // to a vehicle that must cross the area. The stop before the area can close a cycle as well, so the function then
     // checks it.
     bool closes_cycle(const Conflict& area, const ChainLink& blocker) {
-        if (!can_wait_before(v_.slot, v_.front_m, area.from_m)) return false;
+        if (!can_wait_before(candidate_.slot, candidate_.front_m, area.from_m)) return false;
         const int crossing_slot = find_crossing(area, blocker);
         if (crossing_slot < 0) return false;
         result_ = {area.from_m, crossing_slot};
@@ -215,7 +215,7 @@ private:
             if (occupant.rear_m < on.front_m) break;
             leader = occupant.slot;
         }
-        if (leader < 0 || leader == v_.slot) return;
+        if (leader < 0 || leader == candidate_.slot) return;
         const double behind_m = length_m(leader) + standstill_gap_m(link.slot);
         visit(ChainLink{leader, link.from_m + behind_m, link.to_m + behind_m});
     }
@@ -223,17 +223,17 @@ private:
     OnConnection on_connection(int slot) const {
         const int lane = lane_of(state_, slot);
         if (state_.plan.intersection_of(lane) != intersection_) return {};
-        if (state_.plan.lane(lane).origin >= 0) return {lane, arrays_.position_m[at(slot)]};
-        const int next = arrays_.next_lane[at(slot)];
+        if (state_.plan.lane(lane).origin >= 0) return {lane, v_.position_m[at(slot)]};
+        const int next = v_.next_lane[at(slot)];
         if (next < 0 || state_.plan.lane(next).origin != lane) return {};
-        return {next, arrays_.position_m[at(slot)] - state_.plan.lane(lane).length_m};
+        return {next, v_.position_m[at(slot)] - state_.plan.lane(lane).length_m};
     }
 
     const Model& model_;
     const State& state_;
-    const VehicleArrays& arrays_;
+    const VehicleArrays& v_;
     std::span<const Conflict> conflicts_;  // those of the candidate's connection
-    const Candidate& v_;
+    const Candidate& candidate_;
     double margin_m_;
     double length_m_;
     int intersection_;
@@ -242,11 +242,11 @@ private:
 
 }  // namespace
 
-KeptOutArea area_to_keep_clear(const Model& model, const State& state, int lane, const Candidate& v) {
+KeptOutArea area_to_keep_clear(const Model& model, const State& state, int lane, const Candidate& candidate) {
     if (!model.rules.keep_clear || model.rules.pass_blocker_ticks > 0) return {};
     // A cycle that contains the candidate also contains a vehicle on a conflicting connection.
     if (!state.junctions.occupied.has_any(state.plan.conflicting(lane))) return {};
-    return CycleSearch(model, state, lane, v).result();
+    return CycleSearch(model, state, lane, candidate).result();
 }
 
 }  // namespace stopline

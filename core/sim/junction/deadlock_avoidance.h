@@ -23,7 +23,7 @@ struct KeptOutArea {
     bool exists() const { return from_m < kNoWait_m; }
 };
 
-// Returns the nearest conflict area ahead of candidate `v` on connection `lane` whose entry would close a cycle:
+// Returns the nearest conflict area ahead of `candidate` on connection `lane` whose entry would close a cycle:
 //   - Further ahead, another vehicle is in the path of the candidate. The candidate would stop behind it with its body
 //     across the area.
 //   - A vehicle that must still cross the area is in the path of the other vehicle, directly or through further
@@ -31,6 +31,6 @@ struct KeptOutArea {
 // A vehicle slower than kCrawlingSpeed_mps (1 m/s) is in the path of another one if it is in the conflict area of both.
 // A faster vehicle must also stop there, because it waits for the next vehicle of the cycle. Ignores areas before which
 // the candidate can no longer stop.
-KeptOutArea area_to_keep_clear(const Model& model, const State& state, int lane, const Candidate& v);
+KeptOutArea area_to_keep_clear(const Model& model, const State& state, int lane, const Candidate& candidate);
 
 }  // namespace stopline

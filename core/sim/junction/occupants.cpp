@@ -71,8 +71,8 @@ public:
     void update_bitsets() {
         for (const int lane : part_.occupants.keys()) {
             const std::span<const JunctionOccupant> occupants_of_lane = occupants_of(state_, lane);
-            part_.longest_in_junction =
-                std::max(part_.longest_in_junction, state_.tick - occupants_of_lane.front().since);
+            part_.longest_in_junction_ticks =
+                std::max(part_.longest_in_junction_ticks, state_.tick - occupants_of_lane.front().since_tick);
             const int bit = state_.plan.lane(lane).bitset_index;
             if (bit < 0) continue;
             junctions_.occupied.set(at(bit));
@@ -102,9 +102,10 @@ private:
     void add(int lane, int slot, double offset_m) {
         add(lane, slot, offset_m, v_.record[at(slot)].junction_entry_tick);
     }
-    void add(int lane, int slot, double offset_m, std::int64_t since) {
+    void add(int lane, int slot, double offset_m, std::int64_t since_tick) {
         const double front_m = v_.position_m[at(slot)] + offset_m;
-        part_.occupants.add(lane, {slot, front_m, front_m - v_.length_m[at(slot)], since}, junctions_.occupants_place);
+        part_.occupants.add(lane, {slot, front_m, front_m - v_.length_m[at(slot)], since_tick},
+                            junctions_.occupants_place);
     }
 
     const State& state_;

@@ -51,19 +51,19 @@ bool may_pass(const Model& model, State& state, Partition& part, int vehicle, in
         known.last_needed_tick = state.tick;
         return true;
     }
-    const std::int64_t stood = state.tick - v.stopped_since[at(blocker)];
-    if (stood < model.rules.pass_blocker_ticks) return false;
+    const std::int64_t stopped_ticks = state.tick - v.stopped_since_tick[at(blocker)];
+    if (stopped_ticks < model.rules.pass_blocker_ticks) return false;
     if (state.plan.lane(lane).exit == state.plan.lane(other).exit) return false;
-    part.blocker_passes.push_back({v.id[at(vehicle)], v.id[at(blocker)], state.tick, stood, false});
+    part.blocker_passes.push_back({v.id[at(vehicle)], v.id[at(blocker)], state.tick, stopped_ticks, false});
     return true;
 }
 
-// Returns true if an occupant of connection `conflict.other` keeps candidate `v` out of the conflict area. The gap to
+// Returns true if an occupant of connection `conflict.other` keeps `candidate` out of the conflict area. The gap to
 // approaching vehicles with priority is checked elsewhere (find_gap_blocker()).
 bool blocks_area(const Model& model, State& state, Partition& part, int lane, const Conflict& conflict,
-                 const Candidate& v, const JunctionOccupant& occupant) {
+                 const Candidate& candidate, const JunctionOccupant& occupant) {
     if (occupant.rear_m >= conflict.other_to_m) return false;
-    if (may_pass(model, state, part, v.slot, lane, occupant.slot, conflict.other)) return false;
+    if (may_pass(model, state, part, candidate.slot, lane, occupant.slot, conflict.other)) return false;
     if (occupant.front_m > conflict.other_from_m) return true;
     if (occupant.slot == state.stop_lines.stop_slot[at(state.plan.lane(conflict.other).origin)]) return false;
     if (conflict.yields) return false;
@@ -74,42 +74,43 @@ bool blocks_area(const Model& model, State& state, Partition& part, int lane, co
     // Neither connection has priority. If only one of the two vehicles can stop before the area, this vehicle waits.
     // The other vehicle would come to rest inside the area if it braked.
     const auto& speed_mps = state.vehicles.speed_mps;
-    const bool can_stop = can_stop_within(model, speed_mps[at(v.slot)], conflict.from_m - v.front_m);
+    const bool can_stop = can_stop_within(model, speed_mps[at(candidate.slot)], conflict.from_m - candidate.front_m);
     const bool other_can_stop =
         can_stop_within(model, speed_mps[at(occupant.slot)], conflict.other_from_m - occupant.front_m);
     if (can_stop != other_can_stop) return can_stop;
     // If both vehicles wait for each other, a deadlock resolution decides which one proceeds.
-    if (find_resolution(state, part, occupant.slot, v.slot) != nullptr) return true;
-    if (DeadlockResolution* const resolution = find_resolution(state, part, v.slot, occupant.slot)) {
+    if (find_resolution(state, part, occupant.slot, candidate.slot) != nullptr) return true;
+    if (DeadlockResolution* const resolution = find_resolution(state, part, candidate.slot, occupant.slot)) {
         resolution->last_needed_tick = state.tick;  // keeps the resolution from expiring
         return false;
     }
     // If the candidate is stopped, and the occupant yields or is in a queue behind a yielding vehicle, a new resolution
     // lets the candidate proceed.
-    if (v.stopped &&
+    if (candidate.stopped &&
         (is_yielding(state, occupant.slot) || is_behind_yielding_vehicle(state, conflict.other, occupant))) {
         part.deadlock_resolutions.push_back(
-            {state.vehicles.id[at(v.slot)], state.vehicles.id[at(occupant.slot)], state.tick});
+            {state.vehicles.id[at(candidate.slot)], state.vehicles.id[at(occupant.slot)], state.tick});
         return false;
     }
-    const std::int64_t since = state.vehicles.record[at(v.slot)].junction_entry_tick;
-    const bool entered_earlier = occupant.since < since || (occupant.since == since && occupant.slot < v.slot);
-    return !v.inside || entered_earlier;
+    const std::int64_t since = state.vehicles.record[at(candidate.slot)].junction_entry_tick;
+    const bool entered_earlier =
+        occupant.since_tick < since || (occupant.since_tick == since && occupant.slot < candidate.slot);
+    return !candidate.inside || entered_earlier;
 }
 
 // Finds where one candidate must wait, and for which vehicle.
 class WaitSearch {
 public:
-    WaitSearch(const Model& model, State& state, Partition& part, int lane, const Candidate& v)
+    WaitSearch(const Model& model, State& state, Partition& part, int lane, const Candidate& candidate)
         : model_(model),
           state_(state),
           part_(part),
           lane_(lane),
-          v_(v),
-          arrays_(state.vehicles),
-          record_(state.vehicles.record[at(v.slot)]),
-          driver_(model.driver_of(state.vehicles.policy[at(v.slot)])),
-          speed_mps_(state.vehicles.speed_mps[at(v.slot)]),
+          candidate_(candidate),
+          v_(state.vehicles),
+          record_(state.vehicles.record[at(candidate.slot)]),
+          driver_(model.driver_of(state.vehicles.policy[at(candidate.slot)])),
+          speed_mps_(state.vehicles.speed_mps[at(candidate.slot)]),
           is_imported_(model.is_imported()) {}
 
     // Returns where and for which vehicle the candidate must wait. `ahead`: slot of the nearest waiting vehicle ahead
@@ -125,33 +126,34 @@ private:
     Wait search(int ahead) {
         // A vehicle behind a stopped leader cannot use its accepted gap. Drop the gap, so that other vehicles do not
         // wait for this vehicle.
-        if (v_.stopped && is_blocked_by_leader(state_, v_.slot)) record_.accepted_gap_on = -1;
+        if (candidate_.stopped && is_blocked_by_leader(state_, candidate_.slot)) record_.accepted_gap_on = -1;
         has_decided_ = record_.accepted_gap_on == lane_;
         const LanePlan& plan = state_.plan.lane(lane_);
-        const double to_first_m = plan.first_conflict_m - driver_.give_way.margin_m - v_.front_m;
-        if (!v_.stopped && to_first_m > comfortable_braking_distance_m(driver_, speed_mps_)) has_decided_ = false;
+        const double to_first_m = plan.first_conflict_m - driver_.give_way.margin_m - candidate_.front_m;
+        if (!candidate_.stopped && to_first_m > comfortable_braking_distance_m(driver_, speed_mps_))
+            has_decided_ = false;
         const bool has_others_inside = state_.junctions.occupied.has_any(state_.plan.conflicting(lane_));
         const LanePlan& origin = state_.plan.lane(plan.origin);
         const double line_m = origin.stop_line_m - origin.length_m - driver_.tables.stop.margin_m;
         line_m_ = stops_at_line(line_m) ? line_m : kNoWait_m;
         decision_m_ = decision_distance_m(driver_, speed_mps_);
-        if (waits_at_line() && line_m_ - v_.front_m > decision_m_) return {};
+        if (waits_at_line() && line_m_ - candidate_.front_m > decision_m_) return {};
         if (is_imported_) {
-            if (const Wait wait = stop_sign_wait(model_, state_, lane_, v_, line_m); wait.exists()) return wait;
+            if (const Wait wait = stop_sign_wait(model_, state_, lane_, candidate_, line_m); wait.exists()) return wait;
         }
-        was_waiting_ = v_.stopped || had_to_wait(state_, v_.slot);
+        was_waiting_ = candidate_.stopped || had_to_wait(state_, candidate_.slot);
         const bool checks_committed = was_waiting_ || is_imported_;
         if (!has_others_inside && !checks_committed && (has_decided_ || !plan.yields)) return {};
         // A stopped candidate cannot use its accepted gap if it must not enter an area further ahead.
-        const KeptOutArea kept_out = area_to_keep_clear(model_, state_, lane_, v_);
-        if (kept_out.exists() && v_.stopped) has_decided_ = false;
+        const KeptOutArea kept_out = area_to_keep_clear(model_, state_, lane_, candidate_);
+        if (kept_out.exists() && candidate_.stopped) has_decided_ = false;
         // The candidate may follow a vehicle that is about to leave a conflict area or that merges ahead of it, but
         // must stay able to stop behind that vehicle. `behind` is the nearest stopping place behind such a vehicle.
         Wait behind;
         for (const Conflict& conflict : state_.plan.conflicts(lane_)) {
             const bool merges = is_imported_ && is_merge(model_, state_, lane_, conflict);
-            if (v_.front_m > (merges ? conflict.to_m : conflict.from_m)) continue;
-            const bool is_far = wait_m(conflict) - v_.front_m > decision_m_;
+            if (candidate_.front_m > (merges ? conflict.to_m : conflict.from_m)) continue;
+            const bool is_far = wait_m(conflict) - candidate_.front_m > decision_m_;
             const bool is_beyond_decision = is_far && !waits_at_line();
             if (is_beyond_decision && !is_imported_) break;
             if (conflict.from_m >= kept_out.from_m && !is_beyond_decision)
@@ -164,7 +166,7 @@ private:
                 if (!clears_area_in_time(conflict, wait.blocker)) return nearer(wait, behind);
                 keep_nearer({wait_m(conflict), wait.blocker, YieldReason::merging}, behind);
             }
-            if (conflict.yields && !has_decided_ && !is_beyond_decision && v_.front_m <= conflict.from_m) {
+            if (conflict.yields && !has_decided_ && !is_beyond_decision && candidate_.front_m <= conflict.from_m) {
                 const GapBlocker blocker = kept_out.exists() ? GapBlocker{kept_out.crossing_slot, YieldReason::deadlock}
                                            : ahead >= 0      ? GapBlocker{ahead}
                                                              : gap_blocker(conflict);
@@ -186,13 +188,14 @@ private:
     // can still stop at the line, and that vehicles on its connection may not wait inside the intersection. `line_m`:
     // waiting position at the line.
     bool stops_at_line(double line_m) const {
-        if (v_.inside || state_.plan.may_wait_inside(lane_)) return false;
-        if (v_.stopped || line_m - v_.front_m >= comfortable_braking_distance_m(driver_, speed_mps_)) return true;
+        if (candidate_.inside || state_.plan.may_wait_inside(lane_)) return false;
+        if (candidate_.stopped || line_m - candidate_.front_m >= comfortable_braking_distance_m(driver_, speed_mps_))
+            return true;
         // A vehicle that already brakes for the line can deviate slightly from the curve of a comfortable stop. It goes
         // on braking for the line as long as maximum braking suffices.
         const bool brakes_for_line =
-            had_to_wait(state_, v_.slot) && record_.yield_position_m <= static_cast<float>(line_m);
-        const double to_line_m = line_m + driver_.tables.stop.margin_m - v_.front_m;
+            had_to_wait(state_, candidate_.slot) && record_.yield_position_m <= static_cast<float>(line_m);
+        const double to_line_m = line_m + driver_.tables.stop.margin_m - candidate_.front_m;
         return brakes_for_line && to_line_m >= emergency_braking_distance_m(model_, speed_mps_);
     }
 
@@ -200,7 +203,7 @@ private:
     // -1: none.
     int area_blocker(const Conflict& conflict) {
         for (const JunctionOccupant& occupant : occupants_of(state_, conflict.other)) {
-            if (blocks_area(model_, state_, part_, lane_, conflict, v_, occupant)) return occupant.slot;
+            if (blocks_area(model_, state_, part_, lane_, conflict, candidate_, occupant)) return occupant.slot;
         }
         return -1;
     }
@@ -210,11 +213,11 @@ private:
     // waited so far waits only if that vehicle will still be in the conflict area when the candidate arrives.
     int committed_blocker(const Conflict& conflict) const {
         const double braking_m = emergency_braking_distance_m(model_, speed_mps_);
-        if (!conflict.other_yields || conflict.from_m - v_.front_m < braking_m) return -1;
+        if (!conflict.other_yields || conflict.from_m - candidate_.front_m < braking_m) return -1;
         const int committed = committed_vehicle(model_, state_, conflict);
         const bool is_in_the_way =
             committed >= 0 &&
-            (was_waiting_ || occupies_area_on_arrival(model_, state_, lane_, conflict, v_, committed));
+            (was_waiting_ || occupies_area_on_arrival(model_, state_, lane_, conflict, candidate_, committed));
         return is_in_the_way ? committed : -1;
     }
 
@@ -225,7 +228,7 @@ private:
         int blocker = is_empty ? -1 : area_blocker(conflict);
         if (blocker < 0 && checks_committed) blocker = committed_blocker(conflict);
         if (blocker < 0) return {};
-        const bool blocker_is_slow = arrays_.speed_mps[at(blocker)] < kCrawlingSpeed_mps;
+        const bool blocker_is_slow = v_.speed_mps[at(blocker)] < kCrawlingSpeed_mps;
         const bool has_no_signal = state_.plan.signal_group_for(state_.plan.lane(lane_).origin, lane_) == 0;
         const bool checks_all = has_no_signal && (waits_at_line() || !is_imported_);
         if (is_far && !checks_all && !blocker_is_slow) return {};
@@ -234,7 +237,7 @@ private:
         // The gap behind a vehicle with priority begins when that vehicle reaches the area. So the candidate can
         // already accept the gap while the vehicle with priority is still in the area.
         // It starts at the earliest in the next step, and does not check the gap again then.
-        if (conflict.yields && v_.stopped && !blocker_is_slow)
+        if (conflict.yields && candidate_.stopped && !blocker_is_slow)
             wait.keeps_gap = gap_blocker(conflict, model_.step_s).slot < 0;
         return wait;
     }
@@ -244,12 +247,12 @@ private:
     // area. Returns false if `blocker` is slow, or if a vehicle that has not left the area yet is slow or has just had
     // to wait. Such a vehicle may stop before it has left the area.
     bool clears_area_in_time(const Conflict& conflict, int blocker) const {
-        if (!waits_at_line() || arrays_.speed_mps[at(blocker)] < kCrawlingSpeed_mps) return false;
+        if (!waits_at_line() || v_.speed_mps[at(blocker)] < kCrawlingSpeed_mps) return false;
         for (const JunctionOccupant& occupant : occupants_of(state_, conflict.other)) {
             if (occupant.rear_m >= conflict.other_to_m) continue;
-            const double speed_mps = arrays_.speed_mps[at(occupant.slot)];
+            const double speed_mps = v_.speed_mps[at(occupant.slot)];
             const double in_s =
-                earliest_arrival_s(wait_m(conflict) - v_.front_m, speed_mps_,
+                earliest_arrival_s(wait_m(conflict) - candidate_.front_m, speed_mps_,
                                    driver_.give_way.approach_acceleration_mps2, state_.plan.lane(lane_).limit_mps);
             const bool may_stop = speed_mps < kCrawlingSpeed_mps || had_to_wait(state_, occupant.slot);
             if (may_stop || (conflict.other_to_m - occupant.rear_m) / speed_mps > in_s) return false;
@@ -261,26 +264,26 @@ private:
     Wait merging_wait(const Conflict& conflict, bool is_empty) {
         Wait nearest;
         if (conflict.zipper) {
-            nearest = zipper_wait(model_, state_, lane_, v_, conflict);
+            nearest = zipper_wait(model_, state_, lane_, candidate_, conflict);
             const bool goes_first =
-                nearest.blocker >= 0 && find_resolution(state_, part_, v_.slot, nearest.blocker) != nullptr;
+                nearest.blocker >= 0 && find_resolution(state_, part_, candidate_.slot, nearest.blocker) != nullptr;
             return goes_first ? Wait{} : nearest;
         }
         const auto follow = [&](int slot, double front_m) {
-            if (merges_first(state_, lane_, v_, conflict, slot, front_m)) return;
-            keep_nearer({merging_stop_m(model_, state_, lane_, v_, conflict, slot, front_m), slot,
+            if (merges_first(state_, lane_, candidate_, conflict, slot, front_m)) return;
+            keep_nearer({merging_stop_m(model_, state_, lane_, candidate_, conflict, slot, front_m), slot,
                          conflict.other_yields ? YieldReason::intruder : YieldReason::merging},
                         nearest);
         };
         if (!is_empty) {
             for (const JunctionOccupant& occupant : occupants_of(state_, conflict.other)) {
-                if (blocks_area(model_, state_, part_, lane_, conflict, v_, occupant))
+                if (blocks_area(model_, state_, part_, lane_, conflict, candidate_, occupant))
                     follow(occupant.slot, occupant.front_m);
             }
         }
         if (const int committed = committed_blocker(conflict); committed >= 0) {
             const int origin = state_.plan.lane(conflict.other).origin;
-            follow(committed, arrays_.position_m[at(committed)] - state_.plan.lane(origin).length_m);
+            follow(committed, v_.position_m[at(committed)] - state_.plan.lane(origin).length_m);
         }
         return nearest;
     }
@@ -289,17 +292,18 @@ private:
     // conflict area. Two kinds of areas do not count: areas before which the candidate can no longer stop, and areas
     // shared with a connection whose signal is not green now.
     double clear_place_m(double place_m) const {
-        const double length_m = arrays_.length_m[at(v_.slot)];
+        const double length_m = v_.length_m[at(candidate_.slot)];
         // The stopping distance assumes deceleration_comfort, which is usually higher than stop.deceleration. A
         // candidate that already brakes with stop.deceleration for a waiting position can thus keep this position, even
         // if it deviates slightly from the braking curve.
         const double stopping_m =
-            v_.stopped ? 0.0 : braking_distance_m(speed_mps_, 0.0, driver_.tables.cacc.deceleration_comfort_mps2);
+            candidate_.stopped ? 0.0
+                               : braking_distance_m(speed_mps_, 0.0, driver_.tables.cacc.deceleration_comfort_mps2);
         const std::span<const Conflict> conflicts = state_.plan.conflicts(lane_);
         for (std::size_t k = conflicts.size(); k-- > 0;) {
             const Conflict& conflict = conflicts[k];
             const bool would_block = conflict.from_m < place_m && conflict.to_m > place_m - length_m;
-            if (!would_block || conflict.from_m - v_.front_m < stopping_m) continue;
+            if (!would_block || conflict.from_m - candidate_.front_m < stopping_m) continue;
             const int origin = state_.plan.lane(conflict.other).origin;
             const int group = state_.plan.signal_group_for(origin, conflict.other);
             if (state_.signals.lights[at(group)] == Light::green) place_m = wait_m(conflict);
@@ -310,15 +314,15 @@ private:
     // `delay_s`: the candidate can start only after this time.
     GapBlocker gap_blocker(const Conflict& conflict, double delay_s = 0.0) {
         const double place_m = is_imported_ ? std::min(wait_m(conflict), line_m_) : wait_m(conflict);
-        return find_gap_blocker(model_, state_, part_, lane_, v_, place_m, delay_s);
+        return find_gap_blocker(model_, state_, part_, lane_, candidate_, place_m, delay_s);
     }
 
     const Model& model_;
     State& state_;
     Partition& part_;
     int lane_;
-    const Candidate& v_;
-    const VehicleArrays& arrays_;
+    const Candidate& candidate_;
+    const VehicleArrays& v_;
     VehicleRecord& record_;
     const DriverPlan& driver_;  // driver of the candidate
     double speed_mps_;

@@ -97,10 +97,10 @@ void record_hold(const Model& model, const State& state, Partition& part, int in
     }
     if (is_new && model.rules.watches()) {
         const int blocker = hold.blocker;
-        const std::int64_t stood = blocker < 0 ? 0 : state.tick - v.stopped_since[at(blocker)];
+        const std::int64_t stopped_ticks = blocker < 0 ? 0 : state.tick - v.stopped_since_tick[at(blocker)];
         part.rule_uses.push_back({hold.is_refusal ? RuleUse::Kind::refused : RuleUse::Kind::keep_clear,
                                   model.time_s(state.tick), id, index, blocker < 0 ? -1 : v.id[at(blocker)],
-                                  model.time_s(stood)});
+                                  model.time_s(stopped_ticks)});
     }
     line.keep_clear_vehicle = id;
 }

@@ -41,7 +41,8 @@ bool may_accompany(const Model& model, const State& state, int lane, int next, i
     for (const Conflict& conflict : state.plan.conflicts(next)) {
         if (has_conflict(conflict.other)) continue;
         for (const JunctionOccupant& occupant : occupants_of(state, conflict.other)) {
-            if (occupant.since >= stop_tick && model.time_s(state.tick - occupant.since) <= kJustStarted_s) return true;
+            if (occupant.since_tick >= stop_tick && model.time_s(state.tick - occupant.since_tick) <= kJustStarted_s)
+                return true;
         }
     }
     return false;
@@ -49,15 +50,15 @@ bool may_accompany(const Model& model, const State& state, int lane, int next, i
 
 }  // namespace
 
-Wait stop_sign_wait(const Model& model, State& state, int lane, const Candidate& v, double line_m) {
+Wait stop_sign_wait(const Model& model, State& state, int lane, const Candidate& candidate, double line_m) {
     constexpr double kAtLine_m = 2.0;  // largest distance to line_m at which a stop counts as a stop at the line
     const StopRule rule = state.plan.stop_rule(lane);
-    if (rule == StopRule::none || v.inside) return {};
-    VehicleArrays& arrays = state.vehicles;
-    VehicleRecord& record = arrays.record[at(v.slot)];
+    if (rule == StopRule::none || candidate.inside) return {};
+    VehicleArrays& v = state.vehicles;
+    VehicleRecord& record = v.record[at(candidate.slot)];
     if (record.line_stop_tick < 0) {
-        const double speed_mps = arrays.speed_mps[at(v.slot)];
-        if (speed_mps < kStoppedSpeed_mps && line_m - v.front_m < kAtLine_m) {
+        const double speed_mps = v.speed_mps[at(candidate.slot)];
+        if (speed_mps < kStoppedSpeed_mps && line_m - candidate.front_m < kAtLine_m) {
             record.line_stop_tick = static_cast<int>(state.tick);
         } else {
             return {line_m, -1, YieldReason::stop_sign};
@@ -68,9 +69,9 @@ Wait stop_sign_wait(const Model& model, State& state, int lane, const Candidate&
         if (state.plan.stop_rule(conflict.other) != StopRule::all_way_stop) continue;
         const int other = stopped_at_line(state, conflict.other);
         if (other < 0) continue;
-        const int other_tick = arrays.record[at(other)].line_stop_tick;
+        const int other_tick = v.record[at(other)].line_stop_tick;
         const bool was_earlier = other_tick < record.line_stop_tick ||
-                                 (other_tick == record.line_stop_tick && arrays.id[at(other)] < arrays.id[at(v.slot)]);
+                                 (other_tick == record.line_stop_tick && v.id[at(other)] < v.id[at(candidate.slot)]);
         if (was_earlier && !may_accompany(model, state, lane, conflict.other, record.line_stop_tick))
             return {line_m, other, YieldReason::priority};
     }

@@ -100,7 +100,7 @@ private:
             if (r.agreed()) end(r, GapEnding::not_needed, 0.0);
             return false;
         }
-        there_m_ = adjacent_position_m(state_, lane_, me.front_m, r.target_lane);
+        front_on_target_m_ = adjacent_position_m(state_, lane_, me.front_m, r.target_lane);
         // A requester at its waiting position needs no agreement. A vehicle of the target lane holds the gap open
         // without a time limit (gap_search.cpp).
         const bool waits = has_reached_waiting_position(model_, state_, me);
@@ -110,16 +110,16 @@ private:
         }
         if (r.agreed()) keep_opening(r, me);
         const bool searches = state_.tick % cooperation_.search_ticks == 0 && state_.tick >= r.next_search_tick;
-        if (!r.agreed() && searches && !waits && there_m_ >= me.length_m) search(r, me);
+        if (!r.agreed() && searches && !waits && front_on_target_m_ >= me.length_m) search(r, me);
         return true;
     }
 
     // Counts the outcome of a request whose vehicle has left the lane. Returns false.
     bool end_of_departed(const GapRequest& r) {
         if (!r.agreed()) return false;
-        const LaneBlock& there = state_.blocks[at(r.target_lane)];
+        const LaneBlock& target = state_.blocks[at(r.target_lane)];
         const int slot = slot_on_lane(state_, r.target_lane, r.requester, 0);
-        const bool is_used = slot >= 0 && there.has(slot + 1) && v_.id[at(slot + 1)] == r.opener;
+        const bool is_used = slot >= 0 && target.has(slot + 1) && v_.id[at(slot + 1)] == r.opener;
         ++part_.gap_counts.of(is_used ? GapEnding::used : GapEnding::not_needed);
         return false;
     }
@@ -140,12 +140,12 @@ private:
     // A possible place of the requester ahead of the vehicle in slot `opener` of the target lane.
     struct Place {
         int opener = -1;
-        int leader = -1;         // slot of the vehicle ahead of the place; -1: none on the lane
-        double lead_mps = 0.0;   // speed of the leader; without leader, that of the requester
-        double gap_m = 0.0;      // present gap ahead of the opener
-        double missing_m = 0.0;  // length that the gap lacks
-        double extra_m = 0.0;    // further length needed, because the requester is beside the opener
-        double spare_m = 0.0;    // distance from the requester to its place; below 0: it must fall back
+        int leader = -1;          // slot of the vehicle ahead of the place; -1: none on the lane
+        double leader_mps = 0.0;  // speed of the leader; without leader, that of the requester
+        double gap_m = 0.0;       // present gap ahead of the opener
+        double missing_m = 0.0;   // length that the gap lacks
+        double extra_m = 0.0;     // further length needed, because the requester is beside the opener
+        double spare_m = 0.0;     // distance from the requester to its place; below 0: it must fall back
     };
 
     Place place_ahead_of(const LaneChangeRequest& me, int target_lane, int opener, double front_m) const {
@@ -153,26 +153,26 @@ private:
         Place place{.opener = opener};
         const bool has_leader = opener > state_.blocks[at(target_lane)].first;
         if (has_leader) place.leader = opener - 1;
-        place.lead_mps = has_leader ? v_.speed_mps[at(place.leader)] : me.speed_mps;
-        const double lag_m = desired_gap_m(model_, v_.policy[at(opener)], place.lead_mps);
-        const double lead_m = desired_gap_m(model_, me.policy, place.lead_mps);
+        place.leader_mps = has_leader ? v_.speed_mps[at(place.leader)] : me.speed_mps;
+        const double opener_gap_m = desired_gap_m(model_, v_.policy[at(opener)], place.leader_mps);
+        const double own_gap_m = desired_gap_m(model_, me.policy, place.leader_mps);
         place.gap_m = has_leader ? net_gap_m(v_, place.leader, opener) : kNoLeader_m;
-        place.spare_m = has_leader ? rear_m(v_, place.leader) - lead_m - front_m : kNoLeader_m;
-        const double room_m = lead_m + me.length_m + lag_m;
+        place.spare_m = has_leader ? rear_m(v_, place.leader) - own_gap_m - front_m : kNoLeader_m;
+        const double room_m = own_gap_m + me.length_m + opener_gap_m;
         // A requester beside the opener does not fall back. So the opener falls back until it is behind the requester.
         place.missing_m = room_m - place.gap_m;
-        const double beside_m = v_.position_m[at(opener)] + lag_m + me.length_m - front_m;
-        place.extra_m = std::max(beside_m - std::max(place.missing_m, 0.0), 0.0);
+        const double behind_requester_m = v_.position_m[at(opener)] + opener_gap_m + me.length_m - front_m;
+        place.extra_m = std::max(behind_requester_m - std::max(place.missing_m, 0.0), 0.0);
         return place;
     }
 
     // Return the tick at which the newest message that has arrived was sent. request_tick(): from the requester to
     // `other`. answer_tick(): from `other` to the requester.
     std::int64_t request_tick(const GapRequest& r, const LaneChangeRequest& me, int other) const {
-        return heard_tick({me.slot, other, r.target_lane, std::abs(there_m_ - v_.position_m[at(other)])});
+        return heard_tick({me.slot, other, r.target_lane, std::abs(front_on_target_m_ - v_.position_m[at(other)])});
     }
     std::int64_t answer_tick(const LaneChangeRequest& me, int other) const {
-        return heard_tick({other, me.slot, lane_, std::abs(there_m_ - v_.position_m[at(other)])});
+        return heard_tick({other, me.slot, lane_, std::abs(front_on_target_m_ - v_.position_m[at(other)])});
     }
     std::int64_t heard_tick(const MessageLink& link) const {
         if (!uses_channel(model_)) return state_.tick;
@@ -188,14 +188,14 @@ private:
         r.is_confirmed = r.is_confirmed || answered_tick >= r.agreed_tick;
         if (is_late(r)) return end(r, GapEnding::expired, kPause_s);
         if (opener == state_.stop_lines.stop_slot[at(r.target_lane)]) return end(r, GapEnding::stopped);
-        Place place = place_ahead_of(me, r.target_lane, opener, there_m_);
+        Place place = place_ahead_of(me, r.target_lane, opener, front_on_target_m_);
         place.missing_m += r.extra_m;
         if (is_taken(r, place)) return end(r, GapEnding::taken);
-        const bool is_beside = std::abs(there_m_ - v_.position_m[at(opener)]) <= kRange_m &&
-                               (place.leader < 0 || there_m_ <= v_.position_m[at(place.leader)] + kRange_m);
+        const bool is_beside = std::abs(front_on_target_m_ - v_.position_m[at(opener)]) <= kRange_m &&
+                               (place.leader < 0 || front_on_target_m_ <= v_.position_m[at(place.leader)] + kRange_m);
         if (!is_beside) return end(r, GapEnding::missed);
         const double own_mps = v_.speed_mps[at(opener)];
-        if (r.begin_tick < 0 && std::max(own_mps, place.lead_mps) > kCrawlingSpeed_mps) {
+        if (r.begin_tick < 0 && std::max(own_mps, place.leader_mps) > kCrawlingSpeed_mps) {
             r.begin_tick = state_.tick;
             r.begin_gap_m = place.gap_m;
             r.hold_s = own_mps < kCrawlingSpeed_mps ? std::max(place.missing_m, 0.0) / kDischarge_mps : 0.0;
@@ -205,21 +205,21 @@ private:
             ++part_.gap_counts.opened;
             if (r.begin_tick >= 0 && place.leader >= 0)
                 part_.gap_counts.given_s +=
-                    std::max(place.gap_m - r.begin_gap_m, 0.0) / std::max(place.lead_mps, kDischarge_mps);
+                    std::max(place.gap_m - r.begin_gap_m, 0.0) / std::max(place.leader_mps, kDischarge_mps);
         }
         hold_opener(r, place);
-        if (!r.is_confirmed || place.leader < 0 || place.lead_mps <= kSlow_mps) return;
+        if (!r.is_confirmed || place.leader < 0 || place.leader_mps <= kSlow_mps) return;
         // The requester approaches its place gradually. If it fell behind its place, it might be unable to come
         // forward.
         const double back_mps = std::clamp(-place.spare_m / kApproach_s, -kFallingBack_mps, kFallingBack_mps);
-        add_speed_target(state_, part_, lane_, {me.slot, std::max(expected_lead_mps(place) - back_mps, 0.0)});
+        add_speed_target(state_, part_, lane_, {me.slot, std::max(expected_leader_mps(place) - back_mps, 0.0)});
     }
 
     // Returns the speed of the leader at the time at which an alignment takes effect. In full dynamics a vehicle
     // reaches its target speed gradually.
-    double expected_lead_mps(const Place& place) const {
-        if (model_.meso || place.leader < 0) return place.lead_mps;
-        return place.lead_mps + v_.acceleration_mps2[at(place.leader)] * SpeedTarget::kTimeToTarget_s;
+    double expected_leader_mps(const Place& place) const {
+        if (model_.meso || place.leader < 0) return place.leader_mps;
+        return place.leader_mps + v_.acceleration_mps2[at(place.leader)] * SpeedTarget::kTimeToTarget_s;
     }
 
     // Returns true if another vehicle has changed to the place ahead of the opener. Stores the new leader if the old
@@ -235,23 +235,23 @@ private:
     // The opener drives slower than its leader until the gap suffices, and then holds the gap until the agreement ends.
     void hold_opener(const GapRequest& r, const Place& place) {
         if (r.begin_tick < 0) return;
-        const double lead_mps = expected_lead_mps(place);
-        double target_mps = lead_mps;
+        const double leader_mps = expected_leader_mps(place);
+        double target_mps = leader_mps;
         if (place.missing_m > 0.0)
-            target_mps = lead_mps - std::min(kOpening_mps, std::sqrt(2.0 * kOpeningRamp_mps2 * place.missing_m));
+            target_mps = leader_mps - std::min(kOpening_mps, std::sqrt(2.0 * kOpeningRamp_mps2 * place.missing_m));
         if (model_.time_s(state_.tick - r.begin_tick) < r.hold_s) target_mps = 0.0;
         add_speed_target(state_, part_, r.target_lane, {place.opener, std::max(target_mps, 0.0), kOpeningRamp_mps2});
     }
 
     // Finds the cheapest opener.
     void search(GapRequest& r, const LaneChangeRequest& me) {
-        const LaneBlock& there = state_.blocks[at(r.target_lane)];
+        const LaneBlock& target = state_.blocks[at(r.target_lane)];
         const double left_m = waiting_position_m(model_, state_, me) - me.front_m;
         int best = -1;
         double best_cost_s = 0.0;
         double best_extra_m = 0.0;
-        for (int slot = there.first; slot < there.past_last(); ++slot) {
-            const double behind_m = there_m_ - v_.position_m[at(slot)];
+        for (int slot = target.first; slot < target.past_last(); ++slot) {
+            const double behind_m = front_on_target_m_ - v_.position_m[at(slot)];
             if (behind_m < -kRange_m) continue;
             if (behind_m > kRange_m) break;
             if (!can_open(r.target_lane, slot) || request_tick(r, me, slot) < r.since_tick) continue;
@@ -267,7 +267,7 @@ private:
         }
         if (best < 0) return;
         r.opener = v_.id[at(best)];
-        r.leader = best > there.first ? v_.id[at(best - 1)] : -1;
+        r.leader = best > target.first ? v_.id[at(best - 1)] : -1;
         r.extra_m = best_extra_m;
         r.agreed_tick = state_.tick;
         r.is_confirmed = !uses_channel(model_);
@@ -285,21 +285,21 @@ private:
     // requester could not take the place, or if the place would be ready too late.
     double opening_cost_s(const GapRequest& r, const LaneChangeRequest& me, int slot, double left_m,
                           double& extra_m) const {
-        const LaneBlock& there = state_.blocks[at(r.target_lane)];
+        const LaneBlock& target = state_.blocks[at(r.target_lane)];
         const double speed_mps = v_.speed_mps[at(slot)];
-        const double lead_mps = slot > there.first ? v_.speed_mps[at(slot - 1)] : me.speed_mps;
+        const double leader_mps = slot > target.first ? v_.speed_mps[at(slot - 1)] : me.speed_mps;
         // A much slower requester cannot reach the place, because the traffic of its own lane holds it up. A faster one
         // comes forward while it brakes to the speed of the leader.
-        const double faster_mps = me.speed_mps - lead_mps;
+        const double faster_mps = me.speed_mps - leader_mps;
         if (faster_mps < -kFallingBack_mps && me.speed_mps > kCrawlingSpeed_mps) return -1.0;
-        if (faster_mps > kFallingBack_mps && lead_mps <= kSlow_mps) return -1.0;
+        if (faster_mps > kFallingBack_mps && leader_mps <= kSlow_mps) return -1.0;
         const bool starts = speed_mps <= kSlow_mps;
         // A vehicle in a standing queue does not agree. Most agreements in standing queues would end unused, because it
         // is unknown when the two queues start. If both discharge and the opener is still stopped, it agrees and delays
         // its start.
-        if (me.speed_mps <= kCrawlingSpeed_mps || lead_mps <= kCrawlingSpeed_mps) return -1.0;
+        if (me.speed_mps <= kCrawlingSpeed_mps || leader_mps <= kCrawlingSpeed_mps) return -1.0;
         const double forward_m = 0.5 * square(std::max(faster_mps, 0.0)) / SpeedTarget::kDeceleration_mps2;
-        const Place place = place_ahead_of(me, r.target_lane, slot, there_m_ + forward_m);
+        const Place place = place_ahead_of(me, r.target_lane, slot, front_on_target_m_ + forward_m);
         const double missing_m = std::max(place.missing_m, 0.0) + place.extra_m;
         if (starts) {
             // The gap may lack at most one vehicle and two standstill gaps, so that the requester is soon beside it.
@@ -315,7 +315,7 @@ private:
         }
         extra_m = place.extra_m;
         int followers = 1;
-        while (slot + followers < there.past_last() &&
+        while (slot + followers < target.past_last() &&
                net_gap_m(v_, slot + followers - 1, slot + followers) <
                    desired_gap_m(model_, v_.policy[at(slot + followers)], speed_mps) + missing_m)
             ++followers;
@@ -345,7 +345,7 @@ private:
     int lane_;
     const LaneBlock& block_;
     std::vector<GapRequest>& requests_;
-    double there_m_ = 0.0;  // front of the requester, from the start of the target lane
+    double front_on_target_m_ = 0.0;  // front of the requester, from the start of the target lane
 };
 
 }  // namespace

@@ -113,9 +113,9 @@ private:
                 braking_distance_m(v_.speed_mps[at(slot)], me.speed_mps, SpeedTarget::kDeceleration_mps2);
             const int policy = v_.policy[at(slot)];
             if (!helps(slot, me)) continue;
-            const bool stands = me.speed_mps < kMinSpeed_mps && v_.speed_mps[at(slot)] < kMinSpeed_mps;
-            if (stands && has_let_in(slot, waiting)) continue;
-            const double share = urgent_share(model_.driver_of(me.policy).lane_change, stands ? urgency : 1.0);
+            const bool both_crawl = me.speed_mps < kMinSpeed_mps && v_.speed_mps[at(slot)] < kMinSpeed_mps;
+            if (both_crawl && has_let_in(slot, waiting)) continue;
+            const double share = urgent_share(model_.driver_of(me.policy).lane_change, both_crawl ? urgency : 1.0);
             const double needed_m = required_gap_m(model_, policy, 0.0, 0.0, share);
             if (gap_m >= braking_m + needed_m) return {slot, gap_m, v_.speed_mps[at(slot)], policy};
         }
@@ -149,9 +149,10 @@ private:
         const AdjacentLanes& adjacent = state_.plan.adjacent(lane_);
         const int other = change.lane_changes < 0 ? adjacent.left : adjacent.right;
         if (other < 0) return;
-        const double there_m = adjacent_position_m(state_, lane_, me.front_m, other);
-        if (there_m < me.length_m) return;
-        const LaneNeighbours there = neighbours_at(model_, state_, other, there_m, me.length_m, route_from(other, me));
+        const double front_on_target_m = adjacent_position_m(state_, lane_, me.front_m, other);
+        if (front_on_target_m < me.length_m) return;
+        const LaneNeighbours there =
+            neighbours_at(model_, state_, other, front_on_target_m, me.length_m, route_from(other, me));
         double target_mps = kUnlimitedSpeed_mps;
         // If the leader in the adjacent lane is slow, the vehicle does not align with it but drives on beside the
         // queue.

@@ -76,7 +76,9 @@ MesoStep meso_step(const Model& model, std::int64_t tick, bool prefetches) {
     const DriverTables& driver = model.common_driver();
     const double emergency_mps2 = driver.cacc.deceleration_emergency_mps2;
     const bool relays = model.start_relay_vehicles > 0;
-    const auto foresees = [](const FollowingModel& following) { return following.leader_foresees(); };
+    const bool leaders_use_following_speed =
+        relays && std::all_of(model.following.begin(), model.following.end(),
+                              [](const FollowingModel& following) { return following.leader_uses_following_speed(); });
     // The car-following models ask for more than an emergency braking only after lane changes. In networks without lane
     // changes, which have no approaches, they therefore apply without a limit.
     const double hardest_mps2 = model.graph.approaches.empty() ? kNoLimit_mps2 : emergency_mps2;
@@ -95,7 +97,7 @@ MesoStep meso_step(const Model& model, std::int64_t tick, bool prefetches) {
             .calibrated_limit_mps = model.calibrated_limit_mps,
             .acceleration_limits = model.acceleration_limits.empty() ? nullptr : model.acceleration_limits.data(),
             .relays = relays,
-            .leaders_foresee = relays && std::all_of(model.following.begin(), model.following.end(), foresees),
+            .leaders_use_following_speed = leaders_use_following_speed,
             .hardest_mps2 = hardest_mps2,
             .emergency_mps2 = emergency_mps2,
             .prefetches = prefetches};

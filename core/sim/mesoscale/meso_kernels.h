@@ -52,8 +52,8 @@ struct MesoStep {
     // True: V2V relays the start of a queue, and platoon leaders anticipate the speed of the vehicle ahead.
     bool relays;
     // True: a platoon leader has the same safe speed as a follower, so the kernels compute the safe speed only once.
-    // Requires `relays`, and FollowingModel::leader_foresees() of all policies.
-    bool leaders_foresee;
+    // Requires `relays`, and FollowingModel::leader_uses_following_speed() of all policies.
+    bool leaders_use_following_speed;
     double hardest_mps2;    // maximum deceleration behind a leader
     double emergency_mps2;  // maximum deceleration before a lower speed limit
     bool prefetches;        // true: the kernels prefetch blocks; useful if the vehicle data do not fit into the cache

@@ -139,7 +139,7 @@ STOPLINE_INLINE R platoon_leader_speed(const Model& k, const MesoStep& t, const 
     const R free_mps = in.speed_mps + acceleration_mps2 * t.dt;
     const R contact_mps = contact_speed_mps(in, t.dt);
     const R safe_mps =
-        min_of(Following::leader_speed_mps(k, in, following_mps, t.relays, t.leaders_foresee), contact_mps);
+        min_of(Following::leader_speed_mps(k, in, following_mps, t.relays, t.leaders_use_following_speed), contact_mps);
     const R behind_mps = select(in.gap_m > kNoLeader_m, contact_mps, safe_mps);
     const R leader_next = snap_to_standstill(min_of(behind_mps, min_of(free_mps, in.speed_cap_mps)));
     const R was_leader = get<R>(is_platoon_leader);

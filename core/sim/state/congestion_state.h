@@ -12,8 +12,8 @@ namespace stopline {
 
 // The lane on which a teleported vehicle will be reinserted, and the start of its wait for room there.
 struct TeleportTarget {
-    int lane = -1;                   // lane on which the vehicle will be reinserted
-    std::int64_t waiting_since = 0;  // tick at which the wait for room on this lane began
+    int lane = -1;                        // lane on which the vehicle will be reinserted
+    std::int64_t waiting_since_tick = 0;  // tick at which the wait for room on this lane began
 };
 
 // The vehicle that blocked the first vehicle of a lane during the previous green of the lane's signal.

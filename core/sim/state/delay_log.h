@@ -47,12 +47,12 @@ struct DelayEpisode {
     double delay_s = 0.0;  // total delay, vehicle seconds
 };
 
-// A ring of vehicles in which each vehicle waits for the next one. If two rings have a vehicle in common and are
+// A cycle of vehicles in which each vehicle waits for the next one. If two cycles have a vehicle in common and are
 // observed at most one signal cycle apart, both count as the same gridlock.
 struct Gridlock {
     double from_s = 0.0;        // time of the first observation
     double to_s = 0.0;          // time of the latest observation
-    std::vector<int> vehicles;  // ids at the latest observation, lowest id first, then in the order of the ring
+    std::vector<int> vehicles;  // ids at the latest observation, lowest id first, then in the order of the cycle
     std::vector<int> lanes;     // lane of each vehicle
 };
 

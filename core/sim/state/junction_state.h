@@ -21,7 +21,7 @@ struct JunctionOccupant {
     int slot;
     double front_m;
     double rear_m;
-    std::int64_t since;  // tick at which the front passed the stop line; the present tick if it has not passed yet
+    std::int64_t since_tick;  // tick at which the front passed the stop line; the present tick if it has not passed yet
 };
 
 // The position where one vehicle must stop, to yield or to wait for a gap in the adjacent lane.

@@ -104,9 +104,9 @@ struct Partition {
     std::vector<DeadlockResolution> deadlock_resolutions;
 
     // These members are reports. They are merged into the records of the run after each step.
-    std::int64_t present = 0;              // number of vehicles on the lanes at the start of the step
-    std::int64_t updates = 0;              // number of vehicles moved in the step, including vehicles at rest
-    std::int64_t longest_in_junction = 0;  // longest time that a vehicle has been inside a junction, ticks
+    std::int64_t present = 0;                    // number of vehicles on the lanes at the start of the step
+    std::int64_t updates = 0;                    // number of vehicles moved in the step, including vehicles at rest
+    std::int64_t longest_in_junction_ticks = 0;  // longest time that a vehicle has been inside a junction, ticks
     std::int64_t passed_blockers = 0;
     std::int64_t refused = 0;        // vehicles that cooperative clearing begins to hold
     std::int64_t refusal_ticks = 0;  // number of refused vehicles that are stopped at their line

@@ -27,8 +27,8 @@ struct RunRecords {
     GapCounts gap_counts;
     std::int64_t entered = 0;
     std::int64_t exited = 0;
-    std::int64_t updates = 0;              // vehicles present, summed over all steps; includes vehicles at rest
-    std::int64_t longest_in_junction = 0;  // longest time of any vehicle inside a junction, ticks
+    std::int64_t updates = 0;                    // vehicles present, summed over all steps; includes vehicles at rest
+    std::int64_t longest_in_junction_ticks = 0;  // longest time of any vehicle inside a junction, ticks
 };
 
 }  // namespace stopline

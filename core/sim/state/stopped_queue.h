@@ -24,9 +24,9 @@ struct StoppedQueue {
     // or a vehicle of another queue if the first vehicle only waits behind a stopped leader on another lane.
     int head = -1;       // slot of the queue head
     int head_lane = -1;  // lane of the queue head
-    // Slot of the last vehicle that is in a ring of vehicles waiting for each other; -1: the ring contains no vehicle
-    // of this queue. The ring contains all vehicles of the queue up to this one.
-    int ring_last = -1;
+    // Slot of the last vehicle that is in a cycle of vehicles waiting for each other; -1: the cycle contains no vehicle
+    // of this queue. The cycle contains all vehicles of the queue up to this one.
+    int cycle_last = -1;
     int traversal = 0;  // number of the search that reached the queue first; 0: none yet
 
     // Cause that stops the first vehicle itself. DelayCause::none: the vehicle only waits behind a stopped leader, or
@@ -35,9 +35,9 @@ struct StoppedQueue {
     DelayCause cause = DelayCause::none;  // cause to which the delay of all vehicles is attributed
 
     int past_last() const { return first + count; }
-    // Returns the slot of the queue head for the vehicle in `slot`. Each vehicle in a ring is its own queue head. The
-    // queue head of the vehicles behind the ring is the vehicle in slot ring_last.
-    int head_of(int slot) const { return ring_last < 0 ? head : slot < ring_last ? slot : ring_last; }
+    // Returns the slot of the queue head for the vehicle in `slot`. Each vehicle in a cycle is its own queue head. The
+    // queue head of the vehicles behind the cycle is the vehicle in slot cycle_last.
+    int head_of(int slot) const { return cycle_last < 0 ? head : slot < cycle_last ? slot : cycle_last; }
 };
 
 }  // namespace stopline

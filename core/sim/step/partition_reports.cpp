@@ -35,14 +35,14 @@ void merge_partition_reports(State& state) {
     for (Partition& part : state.partitions) {
         present += part.present;
         records.updates += part.updates;
-        records.longest_in_junction = std::max(records.longest_in_junction, part.longest_in_junction);
+        records.longest_in_junction_ticks = std::max(records.longest_in_junction_ticks, part.longest_in_junction_ticks);
         state.congestion.delays.passed_blockers += part.passed_blockers;
         state.congestion.delays.refused += part.refused;
         state.congestion.delays.refusal_ticks += part.refusal_ticks;
         state.congestion.delays.stops += part.stops;
         state.congestion.delays.advised_ticks += part.advised;
         records.violations.add(part.violations);
-        part.updates = part.longest_in_junction = part.passed_blockers = part.refused = part.refusal_ticks = 0;
+        part.updates = part.longest_in_junction_ticks = part.passed_blockers = part.refused = part.refusal_ticks = 0;
         part.stops = part.advised = 0;
         part.violations = {};
         records.gap_counts.add(part.gap_counts);

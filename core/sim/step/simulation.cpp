@@ -167,8 +167,8 @@ void Simulation::watch_delays_in_parallel() {
 }
 
 void Simulation::step() {
-    if (threads_ == 1 || state_.present() < share_from_) return step(false);
-    if (always_shares_) return step(true);
+    if (threads_ == 1 || state_.present() < threads_from_vehicles_) return step(false);
+    if (always_uses_threads_) return step(true);
     const int vehicles = state_.present();
     const auto begin = std::chrono::steady_clock::now();
     step(heuristic_.use_threads());

@@ -21,12 +21,12 @@ public:
     // run. Throws InputError if the parts of the model contradict each other.
     explicit Simulation(const Model& model, int threads = 1);
 
-    // Uses several threads only if at least `vehicles` vehicles are present and several threads are faster
+    // Uses several threads only while at least `vehicles` vehicles are present and several threads are faster
     // (ThreadingHeuristic). Without this call the simulation always uses all threads. In small networks synchronisation
     // costs more than threads save. Results are the same in all cases.
-    void share_from(int vehicles) {
-        share_from_ = vehicles;
-        always_shares_ = false;
+    void use_threads_from(int vehicles) {
+        threads_from_vehicles_ = vehicles;
+        always_uses_threads_ = false;
     }
 
     // Limits the acceleration of one vehicle in all later steps. `vehicle` is its id; -1 ends the limit.
@@ -67,8 +67,8 @@ private:
     FullTables tables_;
     State state_;
     int threads_;
-    int share_from_ = 0;
-    bool always_shares_ = true;
+    int threads_from_vehicles_ = 0;
+    bool always_uses_threads_ = true;
     ThreadingHeuristic heuristic_;
 };
 

@@ -167,17 +167,17 @@ TEST_F(ConflictCount, LongestTimeInJunctionIsAMaximumOverFirstVehicles) {
     place("west_0_straight", 20.0, 120);
     place("west_0_straight", -0.5, 40);  // past the stop line, on the stretch that all movements share
     new_conflicts();
-    EXPECT_EQ(track_.state().records.longest_in_junction, 120);
+    EXPECT_EQ(track_.state().records.longest_in_junction_ticks, 120);
     track_.mutable_state().tick += 30;
     new_conflicts();
-    EXPECT_EQ(track_.state().records.longest_in_junction, 150);
+    EXPECT_EQ(track_.state().records.longest_in_junction_ticks, 150);
     track_.mutable_state().blocks[at(lane("west_0_straight"))].count =
         0;  // removed; the other vehicle has been inside for 70 ticks
     new_conflicts();
-    EXPECT_EQ(track_.state().records.longest_in_junction, 150);
+    EXPECT_EQ(track_.state().records.longest_in_junction_ticks, 150);
     track_.mutable_state().tick += 100;
     new_conflicts();
-    EXPECT_EQ(track_.state().records.longest_in_junction, 170);
+    EXPECT_EQ(track_.state().records.longest_in_junction_ticks, 170);
 }
 
 }  // namespace

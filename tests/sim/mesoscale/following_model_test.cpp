@@ -28,7 +28,7 @@ struct TwoSeconds {
     FollowingBraking braking() const { return {2.0, 0.5}; }
     bool relays_starts() const { return false; }
     bool has_power_limit() const { return false; }
-    bool leader_foresees() const { return true; }
+    bool leader_uses_following_speed() const { return true; }
     SumoFollowing in_sumo() const { return {"Krauss", 2.0, 2.0, kTime_s, kStandstill_m, 0.0, false}; }
 
     template <class R, class Random>

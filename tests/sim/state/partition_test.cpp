@@ -40,7 +40,7 @@ std::vector<std::string> report(const State& state) {
         lines.push_back("gap " + std::to_string(gap.time_s) + " " + std::to_string(gap.vehicle));
     }
     for (const double delay_s : state.congestion.delays.delay_s) lines.push_back("delay " + std::to_string(delay_s));
-    lines.push_back("longest " + std::to_string(state.records.longest_in_junction) + ", updates " +
+    lines.push_back("longest " + std::to_string(state.records.longest_in_junction_ticks) + ", updates " +
                     std::to_string(state.records.updates));
     return lines;
 }
@@ -87,7 +87,7 @@ TEST(Partitions, IncludeConnectionsWithoutConflicts) {
     Simulation alone(model);
     Simulation shared(model, 2);
     expect_same(alone, shared, 200.0, 50.0, "right turns");
-    EXPECT_GT(model.time_s(alone.state().records.longest_in_junction), 10.0);
+    EXPECT_GT(model.time_s(alone.state().records.longest_in_junction_ticks), 10.0);
 }
 
 TEST(Partitions, ThreadsGiveTheSameRunInFullDynamics) {

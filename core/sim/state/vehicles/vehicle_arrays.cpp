@@ -10,7 +10,7 @@ template <class Visit>
 void VehicleArrays::for_each_common(Visit visit) {
     visit(position_m), visit(speed_mps), visit(acceleration_mps2), visit(length_m), visit(end_speed_mps),
         visit(is_platoon_leader);
-    visit(policy), visit(id), visit(next_lane), visit(record), visit(stopped_since), visit(standstill_gap_m);
+    visit(policy), visit(id), visit(next_lane), visit(record), visit(stopped_since_tick), visit(standstill_gap_m);
     if (has_several_types) visit(type);
     if (has_itineraries) visit(itinerary);
     if (has_lane_changes) visit(lane_memory);

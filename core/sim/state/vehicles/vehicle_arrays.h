@@ -61,7 +61,7 @@ struct VehicleArrays {
     // because the present lane does not allow its turn.
     LargeArray<int> next_lane;
     LargeArray<VehicleRecord> record;
-    LargeArray<int> stopped_since;  // latest tick at which the vehicle was observed in motion
+    LargeArray<int> stopped_since_tick;  // latest tick at which the vehicle was observed in motion
     LargeArray<float> standstill_gap_m;
     // Models with several vehicle types only; see type_of().
     LargeArray<int> type;
