@@ -265,10 +265,12 @@ STOPLINE_INLINE R emergency_acceleration(const CaccSettingsOf<Number>& c, const 
     return choose(urgent, 0.0 - braking, unconstrained);
 }
 
-// Constants of keep_room_acceleration(), whose comment explains their use. All three values are our choice.
+// Our choice: sum of the lag of the brake (0.2 s) and of the time that the requested acceleration needs to change (about
+// 0.1 s).
+inline constexpr double kBrakeResponse_s = 0.3;
+
+// Constants of keep_room_acceleration(), whose comment explains their use. Both values are our choice.
 //
-// Sum of the lag of the brake (0.2 s) and of the time that the requested acceleration needs to change (about 0.1 s).
-inline constexpr double kBrakeReserve_s = 0.3;
 // If this share were 1, vehicles with the policy SWITCH-2 would brake during every start.
 inline constexpr double kReservedGrowthShare = 0.5;
 // A larger value would slow down the starts of Section III of the paper.
@@ -283,9 +285,9 @@ inline constexpr double kMinReserve_s = 0.15;
 // brakes a little harder than that, to return to v_safe.
 //
 // The room is the net gap, minus the gap that must remain, minus two reserves. The first reserve covers the delays of
-// radar and brake. It is the closing speed times the sum of the radar delay and kBrakeReserve_s. The second reserve is
+// radar and brake. It is the closing speed times the sum of the radar delay and kBrakeResponse_s. The second reserve is
 // for policies with a time gap. Their filter (H = 1 + h s) also delays braking, so a vehicle with a short gap would use
-// up its room. The second reserve is the own speed times kBrakeReserve_s, but at most kReservedGrowthShare of
+// up its room. The second reserve is the own speed times kBrakeResponse_s, but at most kReservedGrowthShare of
 // `gap_growth_m`, the desired gap minus the standstill gap. Just above a switch speed gap_growth_m is almost 0, so this
 // reserve is at least the own speed times kMinReserve_s. With a constant distance gap_growth_m is 0 and there is no
 // second reserve, because the feedforward reports the leader's braking in time.
@@ -294,8 +296,8 @@ STOPLINE_INLINE R keep_room_acceleration(const CaccSettingsOf<Number>& c, const 
                                          const LeaderView<R>& p) {
     constexpr double kSpeedGain_1ps = 2.0;  // our choice: a slower response than that of the brake
     const double b = c.deceleration_emergency_mps2;
-    const R delay_m = (c.radar_delay_s + kBrakeReserve_s) * max_of(p.closing_mps, 0.0);
-    const R reserve_m = max_of(min_of(kBrakeReserve_s * speed_mps, kReservedGrowthShare * gap_growth_m),
+    const R delay_m = (c.radar_delay_s + kBrakeResponse_s) * max_of(p.closing_mps, 0.0);
+    const R reserve_m = max_of(min_of(kBrakeResponse_s * speed_mps, kReservedGrowthShare * gap_growth_m),
                                kMinReserve_s * speed_mps * STOPLINE_FLAG(R, gap_growth_m > 0.0));
     const R room_m = max_of(p.gap_m - delay_m - reserve_m - c.emergency_gap_m, 0.05);
     const R speed_p = max_of(speed_mps - p.closing_mps, 0.0);
@@ -311,7 +313,7 @@ STOPLINE_INLINE R keep_room_acceleration(const CaccSettingsOf<Number>& c, const 
 
 // Returns the braking of a driver without V2V that keeps room for the case that the leader brakes with the maximum
 // deceleration b at once. Up to the safe speed, the law returns kUnconstrained_mps2. The driver learns of the braking
-// only from its radar. It responds after the radar delay and kBrakeReserve_s. If both vehicles then brake with b, their
+// only from its radar. It responds after the radar delay and kBrakeResponse_s. If both vehicles then brake with b, their
 // gap has shrunk by the own speed times this time t:
 //     v_safe^2 = v_p^2 + 2 b (gap - v t - gap that must remain)
 // If the gap is too short, v_safe is below the speed of the leader. The driver then falls back, even if its policy asks
@@ -320,7 +322,7 @@ inline double keep_response_room_acceleration(const CaccSettings& c, double spee
     constexpr double kSpeedGain_1ps = 2.0;   // as in keep_room_acceleration()
     constexpr double kLeastSpeed_mps = 1.0;  // our choice: limits the slope of the curve near standstill
     const double b = c.deceleration_emergency_mps2;
-    const double response_s = c.radar_delay_s + kBrakeReserve_s;
+    const double response_s = c.radar_delay_s + kBrakeResponse_s;
     const double room_m = p.gap_m - response_s * (speed_mps + max_of(p.closing_mps, 0.0)) - c.emergency_gap_m;
     const double speed_p = max_of(speed_mps - p.closing_mps, 0.0);
     const double safe_mps = square_root(max_of(square(speed_p) + 2.0 * b * room_m, 0.0));

@@ -188,8 +188,8 @@ TEST(KeepRoom, StartsWhereEqualBrakingJustSuffices) {
             for (const double gap_growth_m : {0.0, 1.0, 12.0}) {
                 const double min_reserve_m = gap_growth_m > 0.0 ? kMinReserve_s * v : 0.0;
                 const double reserve_m =
-                    (c.radar_delay_s + kBrakeReserve_s) * closing +
-                    std::max(std::min(kBrakeReserve_s * v, kReservedGrowthShare * gap_growth_m), min_reserve_m);
+                    (c.radar_delay_s + kBrakeResponse_s) * closing +
+                    std::max(std::min(kBrakeResponse_s * v, kReservedGrowthShare * gap_growth_m), min_reserve_m);
                 const double limit_m = room_m + reserve_m + c.emergency_gap_m;
                 const auto acceleration = [&](double gap_m) {
                     return keep_room_acceleration<double>(c, v, gap_growth_m, {gap_m, closing, 1.0, 1.0, 4.0});

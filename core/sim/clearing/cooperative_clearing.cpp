@@ -20,7 +20,7 @@ namespace {
 constexpr double kGreenReserve_s = 1.0;
 // The last stopped vehicle of the exit lane must start this time before the earliest arrival at its rear.
 constexpr double kStartReserve_s = 1.0;
-constexpr double kAnywhere_m = 1e9;
+constexpr double kAnywhere_m = 1e9;  // place of rest without any vehicle at rest
 constexpr double kRounding_m = 1e-3;
 
 // Returns true if the vehicle is the one of its lane that was refused last, and was refused since the start of a green.
@@ -348,9 +348,11 @@ void update_claims(const Model& model, State& state, Partition& part) {
     for (const int lane : part.occupied) {
         if (state.plan.lane(lane).signal_group >= 0) add_claims(model, state, lane);
     }
-    // Half of the lane remains for the vehicles without a claim.
+    // Our choice: half of the lane remains for the vehicles without a claim.
+    constexpr double kMaxClaimedShare = 0.5;
     for (const int exit : part.exits) {
-        clearing.claims_m[at(exit)] = std::min(clearing.claims_m[at(exit)], 0.5 * state.plan.lane(exit).stop_line_m);
+        clearing.claims_m[at(exit)] =
+            std::min(clearing.claims_m[at(exit)], kMaxClaimedShare * state.plan.lane(exit).stop_line_m);
     }
 }
 
@@ -359,6 +361,10 @@ int admit_vehicles(const Model& model, State& state, int lane, int stopping_slot
 }
 
 void init_clearing(const Model& model, State& state) {
+    // All three values are our choice. Every vehicle exceeds this share of its maximum acceleration when it starts.
+    constexpr double kSureAccelerationShare = 0.5;
+    constexpr double kAnnouncementInterval_s = 0.5;
+    constexpr double kClaimInterval_s = 2.0;
     if (!model.rules.clearing) return;
     ClearingState& clearing = state.clearing;
     const std::size_t lanes = model.graph.lanes.size();
@@ -370,7 +376,7 @@ void init_clearing(const Model& model, State& state) {
     clearing.claims_m.assign(lanes, 0.0);
     clearing.urgent_claims_m.assign(lanes, 0.0);
     clearing.connections.resize(lanes);
-    double limit_mps = 1.0;
+    double limit_mps = 1.0;  // highest speed limit
     for (int lane = 0; lane < static_cast<int>(lanes); ++lane) {
         limit_mps = std::max(limit_mps, state.plan.free_speed_mps(lane));
         ClearingConnection& connection = clearing.connections[at(lane)];
@@ -386,12 +392,12 @@ void init_clearing(const Model& model, State& state) {
         const DriverPlan& driver = model.driver_of(policy);
         const double time_gap_s =
             (desired_gap_m(model, policy, limit_mps) - desired_gap_m(model, policy, 0.0)) / limit_mps;
-        clearing.policies.push_back(
-            {!driver.is_human, std::max(time_gap_s, 0.0), 0.5 * driver.tables.cacc.acceleration_max_mps2});
+        clearing.policies.push_back({!driver.is_human, std::max(time_gap_s, 0.0),
+                                     kSureAccelerationShare * driver.tables.cacc.acceleration_max_mps2});
         clearing.line_margin_m = std::max(clearing.line_margin_m, driver.tables.stop.margin_m);
     }
-    clearing.announcement_ticks = std::max<std::int64_t>(to_ticks(0.5, model.step_s), 1);
-    clearing.claim_ticks = std::max<std::int64_t>(to_ticks(2.0, model.step_s), 1);
+    clearing.announcement_ticks = std::max<std::int64_t>(to_ticks(kAnnouncementInterval_s, model.step_s), 1);
+    clearing.claim_ticks = std::max<std::int64_t>(to_ticks(kClaimInterval_s, model.step_s), 1);
 }
 
 }  // namespace stopline

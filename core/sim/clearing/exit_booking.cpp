@@ -14,7 +14,6 @@ namespace stopline {
 namespace {
 
 constexpr double kNeverStarts_s = 1e9;
-constexpr double kAmpleRoom_m = 1e9;
 constexpr double kClearReserve_m = 1.0;  // distance from the conflict area to the rear of a vehicle at rest
 
 // Determines the room on an exit lane.

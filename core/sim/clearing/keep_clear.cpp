@@ -41,7 +41,7 @@ const ExitRoom& exit_room(const Model& model, State& state, int exit) {
     const VehicleArrays& v = state.vehicles;
     ExitRoom& room = state.stop_lines.exit_rooms[at(exit)];
     if (room.tick == state.tick) return room;
-    room = {state.tick, 1e9, -1};
+    room = {state.tick, kAmpleRoom_m, -1};
     const LaneBlock& block = state.blocks[at(exit)];
     if (block.count == 0) return room;
     // next_limit_m: position of the stop line of the exit lane, or of the lane's end if there is no stop line.
@@ -158,8 +158,9 @@ private:
 
     const Model& model_;
     State& state_;
-    double ample_room_m_;                     // room that suffices for all vehicles of the approach lane
-    std::array<ConnectionState, 16> states_;  // not initialised, to save time in every step
+    double ample_room_m_;                                  // room that suffices for all vehicles of the approach lane
+    static constexpr std::size_t kMaxConnections = 16;     // our choice: the rule ignores further connections
+    std::array<ConnectionState, kMaxConnections> states_;  // not initialised, to save time in every step
     std::size_t count_ = 0;
     // Result of the previous call of state_of(). Most vehicles take the same connection as their leader.
     ConnectionState* last_ = nullptr;
@@ -168,7 +169,8 @@ private:
 }  // namespace
 
 bool can_hold_for_keep_clear(const Model& model, const VehicleArrays& v, int slot, double line_m) {
-    constexpr double kLagFactor = 1.4;  // ratio of the highest deceleration of a normal stop to `stop.deceleration`
+    // Ratio of the highest deceleration of a normal stop to `stop.deceleration`, because the brake lags. Our choice.
+    constexpr double kLagFactor = 1.4;
     const DriverTables& driver = model.driver_of(v.policy[at(slot)]).tables;
     const CaccSettings& cacc = driver.cacc;
     const double peak_mps2 = std::min(kLagFactor * driver.stop.deceleration_mps2, cacc.deceleration_emergency_mps2);
@@ -180,7 +182,7 @@ bool can_hold_for_keep_clear(const Model& model, const VehicleArrays& v, int slo
 }
 
 int choose_keep_clear_stop(const Model& model, State& state, int lane) {
-    constexpr double kDecisionDistance_m = 80.0;  // vehicles further upstream of the line are not held
+    constexpr double kDecisionDistance_m = 80.0;  // our choice: vehicles further upstream of the line are not held
     const VehicleArrays& v = state.vehicles;
     const double line_m = state.plan.lane(lane).stop_line_m;
     const LaneBlock& block = state.blocks[at(lane)];

@@ -105,7 +105,9 @@ bool reinsert_teleported(const Model& model, State& state, int k) {
         const int last = block.last();
         const double room_m = rear_m(v, last) - front_m - gap_m;
         if (room_m < 0.0) return false;
-        speed_mps = std::min(v.speed_mps[at(last)], 0.5 * room_m);
+        // Our choice: the vehicle needs at least 2 s for the room up to its standstill gap.
+        constexpr double kApproach_1ps = 0.5;
+        speed_mps = std::min(v.speed_mps[at(last)], kApproach_1ps * room_m);
     }
     if (!itinerary.has_trip()) {
         speed_mps = std::min(speed_mps, max_stoppable_speed_mps(model, driver, target_lane, front_m));

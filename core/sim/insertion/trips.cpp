@@ -14,6 +14,7 @@
 #include "sim/perception/look_ahead.h"
 #include "sim/perception/reset_leader.h"
 #include "sim/state/lane_blocks.h"
+#include "sim/state/no_leader.h"
 #include "sim/state/queries/desired_gap.h"
 #include "sim/state/queries/gap.h"
 #include "sim/state/queries/passage.h"
@@ -30,10 +31,10 @@ constexpr double kNearLine_m = 40.0;
 // allows such gaps.
 constexpr double kPositionRounding_m = 0.01;
 
-// Returns the position of the rear of the last vehicle on a lane, or 1e6 if the lane is empty.
+// Returns the position of the rear of the last vehicle on a lane, or kNoLeader_m if the lane is empty.
 double last_rear_m(const State& state, int lane) {
     const LaneBlock& block = state.blocks[at(lane)];
-    if (block.count == 0) return 1e6;
+    if (block.count == 0) return kNoLeader_m;
     return rear_m(state.vehicles, block.last());
 }
 
@@ -127,14 +128,12 @@ InsertionPoint insertion_point(const Model& model, const State& state, int numbe
     return point;
 }
 
-constexpr double kNoLeader_m = 1e6;
-
 // The gap to the leader of a new vehicle, and the speed of the leader.
 struct EntryLeader {
     double gap_m = kNoLeader_m;  // net gap
     double speed_mps = 0.0;
 
-    bool exists() const { return gap_m <= 0.1 * kNoLeader_m; }
+    bool exists() const { return gap_m <= kLongestGap_m; }
 };
 
 EntryLeader entry_leader(const Model& model, const State& state, const InsertionPoint& point,
@@ -239,8 +238,10 @@ bool insert_trip(const Model& model, State& state, int number, const InsertionPo
     const RoutePosition position{lane_route >= 0 ? lane_route : route, 0, number, 0};
     const EntryLeader leader = entry_leader(model, state, point, position);
     double limit_mps = state.plan.free_speed_mps(point.lane, policy);
-    if (lane_route < 0)
-        limit_mps = std::min(limit_mps, 0.5 * road.stop_line_m);  // slow enough to change lanes for the turn
+    // A vehicle that must change lanes for its turn enters so slowly that it needs at least 2 s to the stop line, from
+    // the start of the lane. Our choice.
+    constexpr double kLaneChange_1ps = 0.5;
+    if (lane_route < 0) limit_mps = std::min(limit_mps, kLaneChange_1ps * road.stop_line_m);
     const double to_line_m = road.stop_line_m - point.front_m;
     const double stoppable_mps = std::sqrt(2.0 * model.driver_of(policy).tables.stop.deceleration_mps2 * to_line_m);
     if (road.signal_group >= 0) limit_mps = std::min(limit_mps, stoppable_mps);

@@ -119,14 +119,14 @@ private:
 
     // Returns true if the vehicle is past the start of the area or can no longer stop before it. If the candidate and
     // another vehicle can stop for the last time in the same step, only one of them must see the other one as unable to
-    // stop: the candidate with the higher id reduces the distance of the other one by a reserve.
+    // stop: the candidate with the higher id reduces the distance of the other one by a reserve of kBrakeResponse_s and
+    // two steps.
     bool must_enter(int slot, double front_m, double area_m) const {
         if (!can_wait_before(slot, front_m, area_m)) return true;
         if (v_.id[at(slot)] > v_.id[at(candidate_.slot)] || brakes_for(slot, area_m)) return false;
-        constexpr double kReserve_s = 0.3;
         const double acceleration_mps2 = std::max(static_cast<double>(v_.acceleration_mps2[at(slot)]), 0.0);
-        const double soon_mps = v_.speed_mps[at(slot)] + kReserve_s * acceleration_mps2;
-        return !can_stop(slot, area_m - front_m - (kReserve_s + 2.0 * model_.step_s) * soon_mps);
+        const double soon_mps = v_.speed_mps[at(slot)] + kBrakeResponse_s * acceleration_mps2;
+        return !can_stop(slot, area_m - front_m - (kBrakeResponse_s + 2.0 * model_.step_s) * soon_mps);
     }
 
     // Checks the areas that the candidate would block if it stopped at `place_m` because of `blocker`.

@@ -20,6 +20,8 @@ namespace stopline {
 
 namespace {
 
+// All values are our choice.
+constexpr double kSearchInterval_s = 1.0;  // between two searches for an opener
 constexpr double kRange_m = 30.0;          // largest distance between a requester and its opener
 constexpr double kOpening_mps = 1.5;       // a gap grows with this speed
 constexpr double kOpeningRamp_mps2 = 1.0;  // change of the opener's speed
@@ -149,15 +151,15 @@ private:
     };
 
     Place place_ahead_of(const LaneChangeRequest& me, int target_lane, int opener, double front_m) const {
-        constexpr double kNoLeader_m = 1e3;
+        constexpr double kFreeLane_m = 1e3;  // without leader: longer than any gap that a requester needs
         Place place{.opener = opener};
         const bool has_leader = opener > state_.blocks[at(target_lane)].first;
         if (has_leader) place.leader = opener - 1;
         place.leader_mps = has_leader ? v_.speed_mps[at(place.leader)] : me.speed_mps;
         const double opener_gap_m = desired_gap_m(model_, v_.policy[at(opener)], place.leader_mps);
         const double own_gap_m = desired_gap_m(model_, me.policy, place.leader_mps);
-        place.gap_m = has_leader ? net_gap_m(v_, place.leader, opener) : kNoLeader_m;
-        place.spare_m = has_leader ? rear_m(v_, place.leader) - own_gap_m - front_m : kNoLeader_m;
+        place.gap_m = has_leader ? net_gap_m(v_, place.leader, opener) : kFreeLane_m;
+        place.spare_m = has_leader ? rear_m(v_, place.leader) - own_gap_m - front_m : kFreeLane_m;
         const double room_m = own_gap_m + me.length_m + opener_gap_m;
         // A requester beside the opener does not fall back. So the opener falls back until it is behind the requester.
         place.missing_m = room_m - place.gap_m;
@@ -361,7 +363,7 @@ void init_gap_cooperation(const Model& model, State& state) {
     }
     if (!is_on || state.plan.lanes_with_neighbours().empty()) return;
     cooperation.requests.resize(model.graph.lanes.size());
-    cooperation.search_ticks = std::max<std::int64_t>(to_ticks(1.0, model.step_s), 1);
+    cooperation.search_ticks = std::max<std::int64_t>(to_ticks(kSearchInterval_s, model.step_s), 1);
     const V2vPlan& plan = model.v2v_plan;
     cooperation.longest_age_ticks =
         std::max<std::int64_t>(to_ticks(kSilence_s, model.step_s),

@@ -168,7 +168,9 @@ private:
             if (opener.slot != follower.slot)
                 target_mps = std::min(target_mps, std::max(follower.speed_mps - kFallBack_mps, kMinSpeed_mps));
         }
-        if (target_mps < me.speed_mps + 1.0) add_speed_target(state_, part_, lane_, {me.slot, target_mps});
+        // Our choice: a target further above the present speed does not restrain the vehicle within this step.
+        constexpr double kNoRestraint_mps = 1.0;
+        if (target_mps < me.speed_mps + kNoRestraint_mps) add_speed_target(state_, part_, lane_, {me.slot, target_mps});
     }
 
     int route_from(int other, const LaneChangeRequest& me) const {

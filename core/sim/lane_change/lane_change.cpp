@@ -14,6 +14,7 @@
 #include "sim/perception/look_ahead.h"
 #include "sim/perception/reset_leader.h"
 #include "sim/state/lane_blocks.h"
+#include "sim/state/no_leader.h"
 #include "sim/state/queries/desired_gap.h"
 #include "sim/state/queries/gap.h"
 #include "sim/state/queries/stopping_distance.h"
@@ -41,10 +42,9 @@ constexpr double kBesidePocket_m = 1.0;
 // the policy in place of the model's own gap s_0 + v T (standstill gap plus speed times time gap).
 double idm_mps2(const Model& model, int policy, double speed_mps, double limit_mps, double gap_m, double ahead_mps) {
     const LaneChangeSettings& c = model.driver_of(policy).lane_change;
-    constexpr double kNoLeader_m = 1e5;
     constexpr double kMinAcceleration_mps2 = -9.0;
     const double free = 1.0 - square(square(speed_mps / limit_mps));
-    if (gap_m > kNoLeader_m) return c.acceleration_mps2 * free;
+    if (gap_m > kLongestGap_m) return c.acceleration_mps2 * free;
     const double closing_gap_m =
         0.5 * speed_mps * (speed_mps - ahead_mps) / std::sqrt(c.acceleration_mps2 * c.deceleration_mps2);
     const double wanted_m = std::max(desired_gap_m(model, policy, speed_mps) + closing_gap_m, 0.0);

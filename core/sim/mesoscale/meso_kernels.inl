@@ -16,6 +16,7 @@
 #include "sim/mesoscale/following_types.h"
 #include "sim/mesoscale/meso_kernels.h"
 #include "sim/mesoscale/meso_vectors.inl"
+#include "sim/state/no_leader.h"
 #include "sim/state/vehicles/vehicle_arrays.h"
 
 namespace stopline {
@@ -98,8 +99,6 @@ STOPLINE_INLINE R allowed_mps(const MesoStreams& s, const MesoStep& t, int i, co
     return select(end_mps < static_cast<double>(kNoLowerLimit_mps), min_of(here_mps, turn_mps), here_mps);
 }
 
-constexpr double kNoLeader_m = 1e5;  // a vehicle with a longer gap has no leader
-
 // Returns a lower bound of each vehicle's acceleration: on fast lanes, the value of power_profile at the vehicle's
 // speed. On lanes with a speed limit up to calibrated_limit_mps the bound is 0, because the accelerations of the driver
 // models were calibrated on such lanes.
@@ -140,7 +139,7 @@ STOPLINE_INLINE R platoon_leader_speed(const Model& k, const MesoStep& t, const 
     const R contact_mps = contact_speed_mps(in, t.dt);
     const R safe_mps =
         min_of(Following::leader_speed_mps(k, in, following_mps, t.relays, t.leaders_use_following_speed), contact_mps);
-    const R behind_mps = select(in.gap_m > kNoLeader_m, contact_mps, safe_mps);
+    const R behind_mps = select(in.gap_m > kLongestGap_m, contact_mps, safe_mps);
     const R leader_next = snap_to_standstill(min_of(behind_mps, min_of(free_mps, in.speed_cap_mps)));
     const R was_leader = get<R>(is_platoon_leader);
     const R becomes_follower =

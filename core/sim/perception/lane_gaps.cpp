@@ -91,9 +91,8 @@ double required_gap_m(const Model& model, int policy, double speed_mps, double a
     // In full dynamics the radar and the brake respond late, so each vehicle of a platoon brakes harder than its
     // leader. The gap must therefore be so long that the vehicle behind the gap needs only gentle braking.
     constexpr double kGentleBraking_mps2 = 2.0;
-    constexpr double kDelay_s = 0.3;
     const double b_mps2 = model.meso ? model.following[at(policy)].braking().deceleration_mps2 : kGentleBraking_mps2;
-    const double delay_m = model.meso ? 0.0 : kDelay_s * std::max(speed_mps - ahead_mps, 0.0);
+    const double delay_m = model.meso ? 0.0 : kBrakeResponse_s * std::max(speed_mps - ahead_mps, 0.0);
     const double braking_m = braking_distance_m(speed_mps, ahead_mps, b_mps2) + delay_m;
     return std::max(share * desired_gap_m(model, policy, speed_mps), kMinLaneChangeGap_m) + braking_m;
 }

@@ -3,14 +3,15 @@
 
 #include "sim/perception/look_ahead.h"
 #include "sim/state/model.h"
+#include "sim/state/no_leader.h"
 #include "sim/state/state.h"
 
 namespace stopline {
 
 // A vehicle that would be the leader or the follower after a lane change.
 struct Neighbour {
-    int slot = -1;       // -1: there is no such vehicle
-    double gap_m = 1e6;  // net gap
+    int slot = -1;               // -1: there is no such vehicle
+    double gap_m = kNoLeader_m;  // net gap
     double speed_mps = 0.0;
     int policy = 0;
 };

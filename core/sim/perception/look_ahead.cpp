@@ -8,6 +8,7 @@
 #include "sim/perception/hidden_leaders.h"
 #include "sim/performance/prefetch.h"
 #include "sim/state/events.h"
+#include "sim/state/no_leader.h"
 #include "sim/state/queries/gap.h"
 #include "sim/state/queries/platoon_interval.h"
 
@@ -15,7 +16,7 @@ namespace stopline {
 
 namespace {
 
-constexpr double kFar_m = 1e9;
+constexpr double kFar_m = 1e9;  // position of a rear that does not exist
 
 // The stretch just downstream of a lane's end, where the connections from the lane still overlap. Finds the vehicle on
 // this stretch whose rear is furthest upstream. Ignores vehicles whose front is at most `front_m` downstream of the
@@ -248,7 +249,6 @@ bool rear_is_on_merging_path(const State& state, int lane, int slot, int ahead) 
 }
 
 void find_leaders_beyond_lanes(const Model& model, const State& state, VehicleArrays& v, Partition& part) {
-    constexpr double kFree_m = 1e6;
     constexpr double kTouch_m = 1e-4;  // reserve, so that rounding does not make the gap negative
     part.extra_demands.clear();
     // A platoon can extend from a queue at a red signal across the stop line, and a human driver at rest observes when
@@ -262,7 +262,7 @@ void find_leaders_beyond_lanes(const Model& model, const State& state, VehicleAr
         const LeaderAhead ahead = ahead_of(state, lane, head, model.common_driver().cacc.radar_range_m, &hidden);
         const bool has_leader = ahead.slot >= 0;
         const std::size_t leader_slot = at(has_leader ? ahead.slot : head);
-        v.position_m[sentinel] = has_leader ? ahead.lane_start_m + v.position_m[leader_slot] : kFree_m;
+        v.position_m[sentinel] = has_leader ? ahead.lane_start_m + v.position_m[leader_slot] : kNoLeader_m;
         v.speed_mps[sentinel] = v.speed_mps[leader_slot];
         v.length_m[sentinel] = v.length_m[leader_slot];
         v.acceleration_mps2[sentinel] = has_leader ? v.acceleration_mps2[leader_slot] : 0.0F;
@@ -289,7 +289,7 @@ void find_leaders_beyond_lanes(const Model& model, const State& state, VehicleAr
         const int id = has_leader ? v.id[leader_slot] : -1;
         if (v.record[at(head)].leader_id == id) continue;
         // The leader has changed or disappeared. The present gap and closing speed replace the whole radar history.
-        // Without a leader, the gap is that to a position far ahead (kFree_m).
+        // Without a leader, the gap is that to a position far ahead (kNoLeader_m).
         v.record[at(head)].leader_id = id;
         v.is_platoon_leader[at(head)] = 1.0F;
         v.reset_radar(head, gap_m, v.speed_mps[at(head)] - v.speed_mps[sentinel]);

@@ -1,6 +1,7 @@
 #include "sim/perception/reset_leader.h"
 
 #include "base/containers/index.h"
+#include "sim/state/no_leader.h"
 #include "sim/state/queries/gap.h"
 #include "sim/state/state.h"
 
@@ -18,7 +19,7 @@ void reset_leader(VehicleArrays& v, int slot, const LaneBlock& block) {
 void initialise_sensors(VehicleArrays& v, int slot, bool first) {
     const std::size_t i = at(slot);
     v.record[i].leader_id = first ? -1 : v.id[i - 1];
-    const double gap_m = first ? 1e6 : net_gap_m(v, i - 1, i);
+    const double gap_m = first ? kNoLeader_m : net_gap_m(v, i - 1, i);
     v.reset_radar(slot, gap_m, first ? 0.0 : v.speed_mps[i] - v.speed_mps[i - 1]);
     v.reset_v2v(slot);
     if (v.has_v2v_channel) v.v2v.reset(slot);

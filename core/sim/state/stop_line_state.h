@@ -27,6 +27,8 @@ struct KeepClearHold {
     bool is_refusal = false;  // true: cooperative clearing has refused the vehicle; blocker can then be -1
 };
 
+inline constexpr double kAmpleRoom_m = 1e9;  // room on an exit lane for any number of vehicles
+
 // The free length of an exit lane, as the keep-clear rule computes it.
 struct ExitRoom {
     std::int64_t tick = -1;  // tick of the step for which the values are valid
@@ -36,8 +38,8 @@ struct ExitRoom {
     //   vehicle furthest upstream, minus the space for the moving vehicles upstream of it.
     // - If no vehicle is stopped, the signal at the end of the lane is not green and RulesPlan::count_queue_at_red_exit
     //   is true: the distance to the stopping position at the stop line, minus the space for the moving vehicles.
-    // - In all other cases, and beyond RulesPlan::sight_m: 1e9.
-    double room_m = 1e9;
+    // - In all other cases, and beyond RulesPlan::sight_m: kAmpleRoom_m.
+    double room_m = kAmpleRoom_m;
     // Slot of the stopped vehicle at which the free length ends. If all vehicles move but count as stopped at a red
     // signal: slot of the vehicle furthest upstream on the lane. -1: none.
     int stopped_slot = -1;

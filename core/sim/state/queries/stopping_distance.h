@@ -44,11 +44,9 @@ inline double emergency_braking_distance_m(const Model& model, double speed_mps)
     return 0.5 * square(speed_mps) / model.common_driver().cacc.deceleration_emergency_mps2;
 }
 
-// Returns the distance of an emergency stop. In full dynamics, the vehicle first drives on for a response time: the
-// brake lag plus the time in which the requested acceleration changes.
+// Returns the distance of an emergency stop. In full dynamics, the vehicle first drives on for kBrakeResponse_s.
 inline double emergency_stopping_distance_m(const Model& model, double speed_mps) {
-    constexpr double kResponse_s = 0.3;
-    const double response_m = model.meso ? 0.0 : kResponse_s * speed_mps;
+    const double response_m = model.meso ? 0.0 : kBrakeResponse_s * speed_mps;
     return emergency_braking_distance_m(model, speed_mps) + response_m;
 }
 
@@ -79,7 +77,9 @@ inline bool can_stop_after_response(const Model& model, const VehicleArrays& v, 
 // Returns the distance to a conflict area within which right of way is decided: the distance of a comfortable stop plus
 // a reserve.
 inline double decision_distance_m(const DriverPlan& driver, double speed_mps) {
-    return 0.5 * square(speed_mps) / driver.tables.stop.deceleration_mps2 + 1.5 * speed_mps + 3.0;
+    constexpr double kReserve_s = 1.5;  // our choice, as the next one
+    constexpr double kReserve_m = 3.0;
+    return 0.5 * square(speed_mps) / driver.tables.stop.deceleration_mps2 + kReserve_s * speed_mps + kReserve_m;
 }
 
 inline constexpr double kLaneChangeReaction_s = 0.5;
