@@ -265,8 +265,8 @@ STOPLINE_INLINE R emergency_acceleration(const CaccSettingsOf<Number>& c, const 
     return choose(urgent, 0.0 - braking, unconstrained);
 }
 
-// Our choice: sum of the lag of the brake (0.2 s) and of the time that the requested acceleration needs to change (about
-// 0.1 s).
+// Our choice: sum of the lag of the brake (0.2 s) and of the time that the requested acceleration needs to change
+// (about 0.1 s).
 inline constexpr double kBrakeResponse_s = 0.3;
 
 // Constants of keep_room_acceleration(), whose comment explains their use. Both values are our choice.
@@ -313,8 +313,8 @@ STOPLINE_INLINE R keep_room_acceleration(const CaccSettingsOf<Number>& c, const 
 
 // Returns the braking of a driver without V2V that keeps room for the case that the leader brakes with the maximum
 // deceleration b at once. Up to the safe speed, the law returns kUnconstrained_mps2. The driver learns of the braking
-// only from its radar. It responds after the radar delay and kBrakeResponse_s. If both vehicles then brake with b, their
-// gap has shrunk by the own speed times this time t:
+// only from its radar. It responds after the radar delay and kBrakeResponse_s. If both vehicles then brake with b,
+// their gap has shrunk by the own speed times this time t:
 //     v_safe^2 = v_p^2 + 2 b (gap - v t - gap that must remain)
 // If the gap is too short, v_safe is below the speed of the leader. The driver then falls back, even if its policy asks
 // for a shorter gap.

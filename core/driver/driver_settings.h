@@ -87,8 +87,8 @@ struct GiveWaySettings {
     bool operator==(const GiveWaySettings&) const = default;
 };
 
-// Whether and how vehicles on the target lane open a gap for a mandatory lane change. cooperative: vehicles with V2V open
-// it on request.
+// The way in which vehicles on the target lane open a gap for a mandatory lane change. cooperative: vehicles with V2V
+// open it on request.
 enum class GapOpening : std::uint8_t { off, on, cooperative };
 
 // Lane changes (sim/lane_change/lane_change.cpp).

@@ -76,8 +76,8 @@ inline constexpr int kStartedLongAgo_ticks = 1 << 28;
 // Our choice: a driver with a larger extra gap has not stopped because of its leader.
 inline constexpr double kStoppedBehindLeader_m = 1.0;
 
-// Returns the number of steps since the leader started, one step after it was `ticks`. Returns 0 while driver and leader
-// are stopped and the extra gap is at most kStoppedBehindLeader_m. `extra_gap_m`: net gap minus standstill gap.
+// Returns the number of steps since the leader started, one step after it was `ticks`. Returns 0 while driver and
+// leader are stopped and the extra gap is at most kStoppedBehindLeader_m. `extra_gap_m`: net gap minus standstill gap.
 inline int next_start_ticks(int ticks, double speed_mps, double leader_speed_mps, double extra_gap_m) {
     const bool both_rest = speed_mps <= kMesoStopSpeed_mps && leader_speed_mps <= kMesoStopSpeed_mps;
     if (both_rest && extra_gap_m <= kStoppedBehindLeader_m) return 0;

@@ -14,6 +14,7 @@
 #include "base/speed_thresholds.h"
 #include "scenario/build_model.h"
 #include "scenario/load_scenario.h"
+#include "sim/junction/arrivals.h"
 #include "sim/step/simulation.h"
 #include "support/sumo_files.h"
 
@@ -110,7 +111,7 @@ protected:
         for (int slot = block.first; slot < block.past_last(); ++slot) {
             const int id = state.vehicles.id[at(slot)];
             now.insert(id);
-            if (state.vehicles.record[at(slot)].yield_tick >= state.tick - 1) counts.yielded.insert(id);
+            if (had_to_wait(state, slot)) counts.yielded.insert(id);
             if (state.vehicles.speed_mps[at(slot)] < kCrawlingSpeed_mps) {
                 counts.stopped.insert(id);
                 counts.stopped_at.try_emplace(id, simulation.time_s());

@@ -160,7 +160,7 @@ std::string recording_header(const Model& model, const RunOrigin& origin, const 
               {"entries", model.graph.entries}};
     for (const LinkKind* kind : link_kinds_of(model)) json["links"].push_back(kind->name);
     for (const GapPolicy& policy : model.policies) json["policies"].push_back(policy.settings.name);
-    for (const Lane& lane : model.graph.lanes) json["lanes"].push_back(lane_json(lane, !model.demand.trips.empty()));
+    for (const Lane& lane : model.graph.lanes) json["lanes"].push_back(lane_json(lane, model.is_imported()));
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

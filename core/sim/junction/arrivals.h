@@ -59,10 +59,10 @@ struct ArrivalSearch {
 };
 
 // Returns the next arrival of a vehicle at the conflict area on connection `conflict.other`. The search covers the
-// connection, its approach lane, and the lanes further upstream. The search ignores vehicles that yield to others than
-// intruders (YieldReason::intruder), stop for the signal or are in a queue. In imported networks the search also ignores
-// vehicles that the keep-clear rule holds at rest. Vehicles behind an ignored vehicle, on the same connection or
-// approach lane, are ignored, too.
+// connection, its approach lane, and the lanes further upstream. It ignores vehicles that stop for the signal, are in a
+// queue, or yield to others than intruders (YieldReason::intruder). In imported networks it also ignores vehicles that
+// the keep-clear rule holds at rest. Vehicles behind an ignored vehicle, on the same connection or approach lane, are
+// ignored, too.
 Arrival next_arrival(const Model& model, const State& state, const Conflict& conflict, const ArrivalSearch& search);
 
 }  // namespace stopline

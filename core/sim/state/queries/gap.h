@@ -8,8 +8,8 @@
 
 namespace stopline {
 
-// Returns the position of the rear of a vehicle, m from the start of its lane. It is negative while the rear is still on
-// a previous lane.
+// Returns the position of the rear of a vehicle, m from the start of its lane. It is negative while the rear is still
+// on a previous lane.
 inline double rear_m(const VehicleArrays& v, std::integral auto slot) {
     return v.position_m[at(slot)] - static_cast<double>(v.length_m[at(slot)]);
 }

@@ -30,8 +30,8 @@ inline double reliable_stopping_distance_m(const Model& model, const DriverPlan&
                       : stopping_distance_m(driver.tables, speed_mps);
 }
 
-// Mesoscale mode: returns how vehicles of a policy brake before a stop line. The deceleration is that of the car-following
-// model, but at most `stop.deceleration` of the driver settings.
+// Mesoscale mode: returns how vehicles of a policy brake before a stop line. The deceleration is that of the
+// car-following model, but at most `stop.deceleration` of the driver settings.
 inline FollowingBraking stop_line_braking(const Model& model, int policy) {
     FollowingBraking braking = model.following[at(policy)].braking();
     braking.deceleration_mps2 =
