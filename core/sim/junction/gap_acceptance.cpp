@@ -41,12 +41,12 @@ double time_since_last_arrival_s(const State& state, const Conflict& conflict) {
     return since_s;
 }
 
-// Returns the time in s after which a vehicle of length `length_m`, now at `front_m` with `speed_mps`, no longer
-// hinders the next vehicle with priority. For a crossing vehicle, this is the time until it has left the conflict area.
-// For a merging vehicle, it is the time until this vehicle reaches the area, plus a reserve in which it speeds up.
+// Returns the time in s after which `candidate` no longer hinders the next vehicle with priority, if it is at `front_m`
+// with `speed_mps` now. For a crossing vehicle, this is the time until it has left the conflict area. For a merging
+// vehicle, it is the time until this vehicle reaches the area, plus a reserve in which it speeds up.
 double passing_time_s(const Model& model, const State& state, int lane, const Conflict& conflict,
                       const Candidate& candidate, double front_m, double speed_mps) {
-    constexpr double kMergingReserve_s = 1.0;
+    constexpr double kMergingReserve_s = 1.0;  // our choice
     const double length_m = state.vehicles.length_m[at(candidate.slot)];
     const GiveWaySettings& give_way = model.driver_of(state.vehicles.policy[at(candidate.slot)]).give_way;
     const bool merges = is_merge(model, state, lane, conflict);

@@ -12,7 +12,7 @@
 //     is checked again while the vehicle can still stop comfortably, because a stopped vehicle with priority may start.
 //   - If neither connection has priority (movements of different signal groups), the vehicle that was the first to pass
 //     its stop line drives first. Exception: if only one of the two vehicles can stop before the area, the other one
-//     drives first. If two vehicles wait for each other, one of them proceeds (DeadlockResolution).
+//     drives first. In a cycle of vehicles that wait for each other, one proceeds (DeadlockResolution).
 //   - The vehicle does not close a cycle of vehicles that block each other (deadlock_avoidance.h).
 // The pass-blocker rule (driver/traffic_rules.h) lets a vehicle pass another vehicle that has been stopped inside the
 // intersection for a long time.
@@ -92,9 +92,9 @@ bool blocks_area(const Model& model, State& state, Partition& part, int lane, co
             {state.vehicles.id[at(candidate.slot)], state.vehicles.id[at(occupant.slot)], state.tick});
         return false;
     }
-    const std::int64_t since = state.vehicles.record[at(candidate.slot)].junction_entry_tick;
+    const std::int64_t entry_tick = state.vehicles.record[at(candidate.slot)].junction_entry_tick;
     const bool entered_earlier =
-        occupant.since_tick < since || (occupant.since_tick == since && occupant.slot < candidate.slot);
+        occupant.since_tick < entry_tick || (occupant.since_tick == entry_tick && occupant.slot < candidate.slot);
     return !candidate.inside || entered_earlier;
 }
 
