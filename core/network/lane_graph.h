@@ -51,6 +51,9 @@ struct Lane {
     double shape_scale = 1.0;  // metres of `shape` per metre of the lane; 1 except in imported networks
     // Connection: a vehicle whose rear is beyond this position is clear of the other connections of its approach lane.
     double diverge_end_m = 0.0;
+    // Connection, [index in `next` of its approach lane]: the same position for that other connection alone. Empty:
+    // diverge_end_m applies to all of them.
+    std::vector<double> diverge_ends_m = {};
     Turn turn = Turn::none;          // connection: its movement; else none
     int origin = -1;                 // connection: the approach lane that leads to it
     int left = -1;                   // adjacent lane on the left to which vehicles may change; -1: none

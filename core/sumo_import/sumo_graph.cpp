@@ -219,18 +219,47 @@ private:
         for (int index = 0; index < first_connection_; ++index) {
             const std::vector<int> next = lanes()[at(index)].next;
             widen_u_turns(next);
-            const double diverge_m = last_diverge_m(next, [](const Lane&) { return true; });
+            const std::vector<std::vector<double>> diverges_m = diverge_distances_m(next);
+            double diverge_m = 0.0;
+            double first_diverge_m = 1e9;
+            for (const auto& row : diverges_m) {
+                for (const double pair_m : row) {
+                    if (pair_m < 0.0) continue;
+                    diverge_m = std::max(diverge_m, pair_m);
+                    first_diverge_m = std::min(first_diverge_m, pair_m);
+                }
+            }
             double shared_m = diverge_m;
             for (const int k : next) shared_m = std::min(shared_m, lanes()[at(k)].length_m - kMinConnection_m);
             shared_m = std::max(shared_m, 0.0);
             lanes()[at(index)].length_m += shared_m;
-            for (const int k : next) {
-                Lane& connection = lanes()[at(k)];
+            for (std::size_t k = 0; k < next.size(); ++k) {
+                Lane& connection = lanes()[at(next[k])];
                 connection.length_m -= shared_m;
                 connection.shape_start_m = shared_m;
                 connection.diverge_end_m = diverge_m - shared_m;
+                if (first_diverge_m >= diverge_m) continue;
+                for (const double pair_m : diverges_m[k])
+                    connection.diverge_ends_m.push_back((pair_m < 0.0 ? diverge_m : pair_m) - shared_m);
             }
         }
+    }
+
+    // Returns for each pair of connections in `next`, [index][index], the distance from their start to the point beyond
+    // which the two have diverged. Connections to the same lane do not diverge: the result is -1 for such a pair, and
+    // for a connection with itself.
+    std::vector<std::vector<double>> diverge_distances_m(const std::vector<int>& next) {
+        std::vector<std::vector<double>> distances_m(next.size(), std::vector<double>(next.size(), -1.0));
+        for (std::size_t first = 0; first < next.size(); ++first) {
+            for (std::size_t second = 0; second < first; ++second) {
+                const Lane& a = lanes()[at(next[first])];
+                const Lane& b = lanes()[at(next[second])];
+                if (a.next == b.next) continue;
+                distances_m[first][second] = distances_m[second][first] = std::max(
+                    shared_stretch_m(a.shape, b.shape, clearance_m_), shared_stretch_m(b.shape, a.shape, clearance_m_));
+            }
+        }
+        return distances_m;
     }
 
     // Sets Lane::parts of all connections. A connection without internal lanes gets a single part with the name of the
@@ -244,16 +273,15 @@ private:
         }
     }
 
-    // Returns the distance from the start of the connections in `next` to the point beyond which all selected
-    // connections have diverged. Connections to the same lane are not compared with each other.
-    template <class IsSelected>
-    double last_diverge_m(const std::vector<int>& next, const IsSelected& is_selected) {
+    // Returns the distance from the start of the connections in `next` to the point beyond which all of them except
+    // U-turns have diverged. Connections to the same lane are not compared with each other.
+    double last_diverge_m(const std::vector<int>& next) {
         double last_m = 0.0;
         for (const int first : next) {
             for (const int second : next) {
                 const Lane& a = lanes()[at(first)];
                 const Lane& b = lanes()[at(second)];
-                if (first == second || a.next == b.next || !is_selected(a) || !is_selected(b)) continue;
+                if (first == second || a.next == b.next || is_u_turn(a) || is_u_turn(b)) continue;
                 last_m = std::max(last_m, shared_stretch_m(a.shape, b.shape, clearance_m_));
             }
         }
@@ -264,8 +292,7 @@ private:
     // connections of its lane share. netconvert draws a U-turn directly at the end of its lane.
     void widen_u_turns(const std::vector<int>& next) {
         constexpr double kMaxExtension_m = 4.0;
-        const double diverge_m =
-            last_diverge_m(next, [&](const Lane& lane) { return !is_u_turn(lane); }) + kMinConnection_m;
+        const double diverge_m = last_diverge_m(next) + kMinConnection_m;
         for (const int index : next) {
             Lane& connection = lanes()[at(index)];
             if (connection.length_m >= diverge_m || !is_u_turn(connection)) continue;

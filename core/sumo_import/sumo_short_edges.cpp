@@ -45,18 +45,32 @@ private:
     const SumoConnection& connection(std::size_t k) const { return net_.connections[k]; }
     const SumoLane& lane_of(const LaneId& id) const { return net_.edges[at(id.first)].lanes[at(id.second)]; }
 
+    // SUMO writes 't' for a turnaround, and 'T' for one in a network with left-hand traffic.
+    static bool is_u_turn(const SumoConnection& c) { return c.dir == 't' || c.dir == 'T'; }
+
     void try_to_merge(int edge) {
         SumoEdge& own = net_.edges[at(edge)];
         if (own.internal || own.lanes[0].length_m >= kShortEdge_m || incoming_[at(edge)].empty() ||
             outgoing_[at(edge)].empty())
             return;
         const int before = connection(incoming_[at(edge)][0]).from;
-        const auto from_before = [&](std::size_t k) { return connection(k).from == before && connection(k).tl < 0; };
+        const auto continues_before = [&](std::size_t k) {
+            const SumoConnection& c = connection(k);
+            return c.from == before && c.tl < 0 && !is_u_turn(c);
+        };
         const auto to_edge = [&](std::size_t k) { return connection(k).to == edge; };
-        const auto has_via = [&](std::size_t k) { return connection(k).via >= 0; };
-        if (before == edge || !std::all_of(incoming_[at(edge)].begin(), incoming_[at(edge)].end(), from_before)) return;
-        if (!std::all_of(outgoing_[at(before)].begin(), outgoing_[at(before)].end(), to_edge)) return;
-        if (!std::all_of(outgoing_[at(edge)].begin(), outgoing_[at(edge)].end(), has_via)) return;
+        const auto is_reached_with_via = [&](std::size_t k) {
+            const auto leads_to_origin = [&](std::size_t in) {
+                return connection(in).to_lane == connection(k).from_lane;
+            };
+            return connection(k).via >= 0 &&
+                   std::any_of(incoming_[at(edge)].begin(), incoming_[at(edge)].end(), leads_to_origin);
+        };
+        const auto all = [](const std::vector<std::size_t>& connections, const auto& holds) {
+            return std::all_of(connections.begin(), connections.end(), holds);
+        };
+        if (before == edge || !all(incoming_[at(edge)], continues_before)) return;
+        if (!all(outgoing_[at(before)], to_edge) || !all(outgoing_[at(edge)], is_reached_with_via)) return;
         merge(before, edge);
     }
 
@@ -108,8 +122,6 @@ private:
             if (!grown[k]) add_merged_lanes({before, static_cast<int>(k)}, {});
             predecessor.lanes[k].length_m += growth_m;
         }
-        for (const std::size_t removed : incoming_[at(edge)]) net_.connections[removed].from = -1;
-        for (const std::size_t removed : outgoing_[at(edge)]) net_.connections[removed].from = -1;
         replace_connections(before, edge, std::move(new_connections));
     }
 
@@ -159,12 +171,15 @@ private:
     // Adds `new_connections`, which replace the connections from `before` to `edge` and the connections that leave
     // `edge`. Closes `edge`, which has been merged into `before`, to cars.
     void replace_connections(int before, int edge, std::vector<SumoConnection> new_connections) {
+        for (const std::size_t removed : incoming_[at(edge)]) net_.connections[removed].from = -1;
+        for (const std::size_t removed : outgoing_[at(edge)]) net_.connections[removed].from = -1;
         const auto is_removed = [&](std::size_t k) { return connection(k).from < 0; };
+        for (const std::size_t removed : outgoing_[at(edge)])
+            std::erase_if(incoming_[at(connection(removed).to)], is_removed);
         outgoing_[at(before)].clear();
         outgoing_[at(edge)].clear();
         incoming_[at(edge)].clear();
         for (SumoConnection& c : new_connections) {
-            std::erase_if(incoming_[at(c.to)], is_removed);
             outgoing_[at(before)].push_back(net_.connections.size());
             incoming_[at(c.to)].push_back(net_.connections.size());
             net_.connections.push_back(std::move(c));

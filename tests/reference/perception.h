@@ -16,7 +16,7 @@ struct Ahead {
 
 // The place of an observer on its route and its trip.
 struct RoutePlace {
-    int route = -1;
+    int route = -1;  // -1: no route from the lane, so the observer must change lanes
     int route_index = 0;
     int trip = -1;
     int trip_edge = 0;
@@ -30,12 +30,13 @@ public:
     // leader hides.
     Ahead beyond_lane(const Vehicle& v, double range_m, Ahead* hidden = nullptr) const {
         // A vehicle without a next lane leaves the network here, or must change lanes before.
-        if (v.next_lane < 0) return diverging(v.lane, -kNoLimit);
+        if (v.next_lane < 0) return diverging(v.lane, -1, -kNoLimit);
         return beyond(v.lane, v.position_m, {v.route, v.route_index, v.trip, v.trip_edge}, range_m, hidden);
     }
 
     // Does the same for an observer at a position of a lane.
     Ahead beyond(int lane, double position_m, const RoutePlace& place, double range_m, Ahead* hidden = nullptr) const {
+        if (place.route < 0) return diverging(lane, -1, -kNoLimit);
         const Ahead leader = on_route(lane, position_m, place, range_m, hidden);
         if (leader.vehicle != nullptr || place.trip < 0) return leader;
         return on_trip(lane, position_m, place, range_m);
@@ -129,6 +130,11 @@ public:
             const Ahead beyond = last_on_route(w_.route_of(v.route), static_cast<std::size_t>(v.route_index) + 1,
                                                on.length_m, v.position_m, stopping_m(v) + w_.kind(v).standstill_gap_m);
             if (beyond.vehicle != nullptr) demands[k] = hidden_leader_demand_mps2(v, beyond);
+            // The first vehicle of the lane may be clear of a vehicle that is in the way of this one.
+            const Ahead beside = diverging(on.number, v.next_lane, -kNoLimit);
+            const bool differs = !w_.lane(v.next_lane).diverge_ends_m.empty();
+            if (differs && beside.vehicle != nullptr)
+                demands[k] = std::min(demands[k], hidden_leader_demand_mps2(v, beside));
         }
         return demands;
     }
@@ -141,15 +147,21 @@ private:
 
     // The connections of a lane overlap just beyond its end. Returns the vehicle there with the rear furthest upstream,
     // among those whose front is more than `front_m` beyond the end of the lane.
-    Ahead diverging(int lane, double front_m) const {
+    // `own`: connection of the observer, which ignores vehicles that are clear of this connection. -1: unknown, so only
+    // vehicles that are clear of all connections are ignored.
+    Ahead diverging(int lane, int own, double front_m) const {
         const Lane& from = w_.lane(lane);
         Ahead nearest;
         for (const int next : from.next) {
             const Lane& connection = w_.lane(next);
             if (!connection.is_connection()) continue;
+            double clear_m = connection.diverge_end_m;
+            for (std::size_t k = 0; k < connection.diverge_ends_m.size(); ++k)
+                if (from.next[k] == own) clear_m = connection.diverge_ends_m[k];
+            if (front_m >= clear_m) continue;  // the observer itself is past this position
             const auto consider = [&](const Vehicle& v, double start_m) {
                 const double rear_m = start_m + v.rear_m();
-                if (rear_m >= connection.diverge_end_m || start_m + v.position_m <= front_m) return;
+                if (rear_m >= clear_m || start_m + v.position_m <= front_m) return;
                 if (nearest.vehicle == nullptr || from.length_m + rear_m < nearest.rear_m())
                     nearest = {&v, from.length_m + start_m};
             };
@@ -168,9 +180,9 @@ private:
         if (here.next.size() <= 1 && here.length_m - position_m > range_m) return {};
         Ahead beside;
         if (here.next.size() > 1 || next_index == route.size()) {
-            beside = diverging(lane, -kNoLimit);
+            beside = diverging(lane, next_index == route.size() ? -1 : route[next_index], -kNoLimit);
         } else if (here.is_connection() && position_m < here.diverge_end_m) {
-            beside = diverging(here.origin, position_m);
+            beside = diverging(here.origin, lane, position_m);
             beside.start_m -= w_.lane(here.origin).length_m;
         }
         const Ahead own = last_on_route(route, next_index, here.length_m, position_m, range_m);
@@ -196,10 +208,11 @@ private:
         };
         for (std::size_t k = static_cast<std::size_t>(place.route_index) + 1; k < route.size(); ++k) advance(route[k]);
         for (int edge = place.trip_edge + 1;; ++edge) {
-            const Ahead beside = diverging(current, -kNoLimit);
-            if (beside.vehicle != nullptr) return {beside.vehicle, start_m + beside.start_m};
             const Turn turn = w_.model.demand.turn_of_trip(place.trip, edge);
             const int next_route = turn == Turn::none ? -1 : first_route(current, turn);
+            const bool is_known = next_route >= 0 && connections_with(current, turn) == 1;
+            const Ahead beside = diverging(current, is_known ? w_.route_of(next_route)[1] : -1, -kNoLimit);
+            if (beside.vehicle != nullptr) return {beside.vehicle, start_m + beside.start_m};
             if (next_route < 0) return {};
             const std::vector<int>& lanes = w_.route_of(next_route);
             for (std::size_t k = 1; k < lanes.size(); ++k) {
@@ -218,6 +231,13 @@ private:
                 return static_cast<int>(route);
         }
         return -1;
+    }
+
+    // Returns the number of connections of a lane with this turn.
+    int connections_with(int lane, Turn turn) const {
+        const std::vector<int>& next = w_.lane(lane).next;
+        const auto has_turn = [&](int k) { return w_.lane(k).turn == turn; };
+        return static_cast<int>(std::count_if(next.begin(), next.end(), has_turn));
     }
 
     const World& w_;

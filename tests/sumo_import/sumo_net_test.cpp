@@ -15,6 +15,7 @@ namespace stopline {
 namespace {
 
 using testing::crossing_net;
+using testing::fork_net;
 using testing::refusal;
 using testing::replaced;
 using testing::signal_net;
@@ -109,6 +110,27 @@ TEST(SumoNetwork, ConnectionsOfALaneShareAStretchUntilTheyDiverge) {
     }
     EXPECT_LT(length_m(lane(network.graph, ":J_2_0").shape), 4.5 + 8.0)
         << "the U-turn reaches too far into the junction";
+}
+
+TEST(SumoNetwork, EachPairOfConnectionsDivergesAtItsOwnPosition) {
+    const SumoNetwork network = network_of(fork_net());
+    const std::vector<int>& connections = lane(network.graph, "a_0").next;
+    ASSERT_EQ(connections.size(), 3U);
+    // The distance from the stop line at which a connection has diverged from another one of the list.
+    const auto diverge_m = [&](std::size_t one, std::size_t other) {
+        const Lane& connection = network.graph.lanes[static_cast<std::size_t>(connections[one])];
+        return connection.shape_start_m + connection.diverge_ends_m.at(other);
+    };
+    const Lane& straight = lane(network.graph, ":J_1_0");
+    EXPECT_LT(diverge_m(1, 0), 6.0);   // of the connections to c and d
+    EXPECT_LT(diverge_m(2, 0), 6.0);   // to b and d
+    EXPECT_GT(diverge_m(1, 2), 25.0);  // to c and b
+    EXPECT_DOUBLE_EQ(diverge_m(1, 2), diverge_m(2, 1));
+    EXPECT_DOUBLE_EQ(straight.diverge_ends_m[2], straight.diverge_end_m) << "the last pair diverges here";
+    const SumoNetwork crossing = network_of(crossing_net());
+    for (const Lane& other : crossing.graph.lanes) {
+        EXPECT_TRUE(other.diverge_ends_m.empty()) << "two connections diverge at one position";
+    }
 }
 
 TEST(SumoNetwork, ScalesShapesToTheStatedLengths) {

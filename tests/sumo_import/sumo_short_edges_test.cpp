@@ -73,5 +73,41 @@ TEST(SumoShortEdges, StayBehindASignalOrIfLongEnough) {
     EXPECT_DOUBLE_EQ(long_enough.loops[0].position_m, 2.0);
 }
 
+TEST(SumoShortEdges, StayBehindATurnaround) {
+    for (const char dir : {'t', 'T'}) {
+        SumoNet net = chain();
+        for (SumoConnection& c : net.connections) c.dir = c.to == 2 ? dir : 's';
+        merge_short_edges(net);
+        EXPECT_EQ(net.edges[2].merged_into, -1) << dir;
+        EXPECT_EQ(net.connections.size(), 8U) << dir;
+    }
+}
+
+TEST(SumoShortEdges, KeepConnectionsOfLanesWithoutPredecessor) {
+    SumoNet net = chain();
+    net.connections.erase(net.connections.begin() + 4);  // from lane 1 of a to lane 1 of s
+    merge_short_edges(net);
+    EXPECT_EQ(net.edges[2].merged_into, -1);
+    EXPECT_EQ(net.connections.size(), 7U);
+}
+
+// Lane 0 of s leads to e and lane 1 to the short edge b, but a leads only to lane 0. If the connection from s to b were
+// dropped, b would keep a predecessor that does not exist.
+TEST(SumoShortEdges, KeepThePredecessorsOfShortEdgesDownstream) {
+    SumoNet net = chain();
+    net.edges.push_back(edge(":y", 168.0, 2.0));
+    net.edges.push_back(edge("f", 170.0, 50.0));
+    net.edges.push_back(edge("e", 118.0, 50.0));
+    for (SumoLane& lane : net.edges[4].lanes) lane.length_m = 5.0;
+    net.connections[2].to = net.connections[3].to = 7;
+    net.connections.erase(net.connections.begin() + 4);  // from lane 1 of a to lane 1 of s
+    for (int lane = 0; lane < 2; ++lane) net.connections.push_back({4, lane, 6, lane, 5, lane});
+    merge_short_edges(net);
+    EXPECT_EQ(net.edges[2].merged_into, -1);
+    EXPECT_EQ(net.edges[4].merged_into, -1);
+    EXPECT_EQ(net.connections.size(), 9U);
+    for (const SumoConnection& c : net.connections) EXPECT_GE(c.from, 0);
+}
+
 }  // namespace
 }  // namespace stopline

@@ -201,6 +201,30 @@ inline std::string turnaround_net() {
            "</net>\n";
 }
 
+// Returns an edge a (100 m, one lane) that leads to d (right turn), c (straight on) and b (a slight left turn). Vehicles
+// to d diverge from the others after a few metres. Vehicles to b and to c diverge from each other after more than 30 m.
+inline std::string fork_net() {
+    return R"(<net version="1.20">
+<edge id=":J_0" function="internal"><lane id=":J_0_0" index="0" speed="9" length="9.2" shape="0,-1.6 3,-2.2 5.2,-4.6 6,-8"/></edge>
+<edge id=":J_1" function="internal"><lane id=":J_1_0" index="0" speed="13.89" length="40" shape="0,-1.6 40,-1.6"/></edge>
+<edge id=":J_2" function="internal"><lane id=":J_2_0" index="0" speed="13.89" length="40.26" shape="0,-1.6 20,-1.2 40,2"/></edge>
+<edge id="a" from="A" to="J"><lane id="a_0" index="0" speed="13.89" length="100" shape="-100,-1.6 0,-1.6"/></edge>
+<edge id="b" from="J" to="B"><lane id="b_0" index="0" speed="13.89" length="100" shape="40,2 138.7,18"/></edge>
+<edge id="c" from="J" to="C"><lane id="c_0" index="0" speed="13.89" length="100" shape="40,-1.6 140,-1.6"/></edge>
+<edge id="d" from="J" to="D"><lane id="d_0" index="0" speed="13.89" length="100" shape="6,-8 6,-108"/></edge>
+<junction id="J" type="priority" x="7" y="0" incLanes="a_0" intLanes=":J_0_0 :J_1_0 :J_2_0" shape="0,0 1,1">
+<request index="0" response="000" foes="000" cont="0"/><request index="1" response="000" foes="000" cont="0"/>
+<request index="2" response="000" foes="000" cont="0"/></junction>
+<connection from="a" to="d" fromLane="0" toLane="0" via=":J_0_0" dir="r" state="M"/>
+<connection from="a" to="c" fromLane="0" toLane="0" via=":J_1_0" dir="s" state="M"/>
+<connection from="a" to="b" fromLane="0" toLane="0" via=":J_2_0" dir="l" state="M"/>
+<connection from=":J_0" to="d" fromLane="0" toLane="0" dir="r" state="M"/>
+<connection from=":J_1" to="c" fromLane="0" toLane="0" dir="s" state="M"/>
+<connection from=":J_2" to="b" fromLane="0" toLane="0" dir="l" state="M"/>
+)" + dead_ends("ABCD") +
+           "</net>\n";
+}
+
 // Returns an edge with two lanes (100 m) that merge into the single lane of a short edge, and an edge beyond it.
 inline std::string lane_drop_net() {
     return R"(<net version="1.20">

@@ -60,6 +60,19 @@ TEST_P(ImportedEntry, DefaultsOfDepartureDecideTheInflow) {
     EXPECT_TRUE(old.violations.none());
 }
 
+// Only right turns are possible from lane 0. A truck of 16.5 m turns right and still covers the end of this lane when a
+// car that turns left wants to enter there.
+TEST_P(ImportedEntry, KeepsAGapToARearOnALaneWithoutTheTurn) {
+    const NetworkResult result =
+        run(read_data("turn_per_lane"), routes_of(R"(<vType id="truck" length="16.5" vClass="truck"/>
+<trip id="first" type="truck" depart="0" from="ab" to="bc" departLane="0" departPos="last" departSpeed="0"/>
+<trip id="second" depart="4" from="ab" to="bd" departLane="0" departPos="last" departSpeed="0"/>
+)"),
+            60);
+    EXPECT_EQ(result.entered, 2);
+    EXPECT_EQ(result.violations.overlaps, 0);
+}
+
 // Vehicles enter 2 to 60 m before a signal, at all times of its cycle. Each enters at a speed from which it can
 // still stop at the signal.
 TEST_P(ImportedEntry, NearASignalIsPossibleAtAllTimes) {

@@ -183,6 +183,16 @@ TEST_P(ImportedRightOfWay, ZipperMergesInTurn) {
     EXPECT_TRUE(dense.violations.none());
 }
 
+// The front of a lorry is on the exit lane while its rear is still on its connection.
+TEST_P(ImportedRightOfWay, ZipperLeavesRoomForTheRearsOfLorries) {
+    const Observed seen = run({"zipper",
+                               "<vType id=\"lorry\" length=\"16.5\"/>\n" +
+                                   flow("ab", "bc", "vehsPerHour=\"3600\" type=\"lorry\"", "departLane=\"free\""),
+                               "", 200.0});
+    EXPECT_GT(seen.exited, 15);
+    EXPECT_TRUE(seen.violations.none());
+}
+
 // Four vehicles that go straight on arrive from four sides. Each of them has another one on its right.
 TEST_P(ImportedRightOfWay, RightBeforeLeftDoesNotLock) {
     const auto trip = [](const std::string& from, const std::string& to, double depart_s) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "runs/network/network_run.h"
+#include "runs/single_light/single_light.h"
 #include "scenario/load_scenario.h"
 #include "sim/state/vehicles/full_group.h"
 
@@ -28,6 +29,40 @@ TEST(InsertVehicle, KeepsAGapToAVehicleStoppedBeyondTheLink) {
     EXPECT_GT(result.entered, 50);
     EXPECT_EQ(result.violations.overlaps, 0);
     EXPECT_LT(result.violations.forced_red_entries, result.entered / 20);
+}
+
+// A vehicle of 30 m whose front has left an approach of 32 m still covers most of it.
+TEST(InsertVehicle, KeepsAGapToTheRearOfAVehicleThatLeavesAnInlet) {
+    const SingleLightReport report =
+        run_single_light(parse_scenario("duration: 60 s\n"
+                                        "network: {approach: {lanes: 1, length: 32 m, exit_length: 50 m}}\n"
+                                        "signal: {first_green: 5 s, green: 30 s}\n"
+                                        "vehicle: {base: petrol_eu4_72kw, length: 30 m}\n"
+                                        "demand: {kind: saturated, start: queued}\n"
+                                        "populations: [CTG-Ref]\n",
+                                        "test.yaml"));
+    EXPECT_TRUE(report.no_violations());
+}
+
+// The rear of a lorry of 16.5 m that waits beyond a link is still on the link.
+TEST(InsertVehicle, TeleportedVehicleKeepsAGapToARearOnItsLane) {
+    for (const char* const cycles : {"0.2", "1"}) {
+        const NetworkResult result = result_of(
+            std::string("duration: 600 s\n"
+                        "network: {kind: grid, intersection: {radius: 12 m, speed_limit: 20 km/h, turn_speed: 1 m/s, "
+                        "approach_length: 60 m, exit_length: 30 m, lanes: [{movements: straight+left+right}]}, grid: "
+                        "{columns: 1, rows: 2, row_spacing: 50 m}}\n"
+                        "signal: {first_green: 0 s, green: 4 s, yellow: 1 s, all_red: 2 s}\n"
+                        "demand: {kind: rate, inflow: 500 veh/h, left: 20 %, right: 50 %, entry_speed: 20 km/h}\n"
+                        "vehicle: articulated_lorry_35t\n"
+                        "driver: lorry\n"
+                        "populations: [CTG-Ref]\n"
+                        "measure: {window: 300 s}\n"
+                        "rules: {teleport_cycles: ") +
+            cycles + "}\n");
+        EXPECT_GT(result.delays.teleported, 0) << cycles;
+        EXPECT_EQ(result.violations.overlaps, 0) << cycles;
+    }
 }
 
 // The links are too short to stop from the speed limit before the next signal, so teleported vehicles must be inserted

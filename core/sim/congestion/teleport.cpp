@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "base/containers/index.h"
+#include "sim/insertion/insert_vehicle.h"
 #include "sim/lane_change/route_choice.h"
 #include "sim/perception/approaching_vehicles.h"
 #include "sim/perception/look_ahead.h"
@@ -62,18 +63,22 @@ bool trip_ends_on_next_edge(const State& state, const Itinerary& itinerary) {
     return itinerary.has_trip() && state.plan.turn_of_trip(itinerary.trip, itinerary.trip_edge + 1) == Turn::none;
 }
 
-// Returns true if a vehicle on a trip can be reinserted on an empty lane. The net gap to the leader, which is further
-// downstream than this lane, must be at least the standstill gap of the vehicle.
-bool has_room_beyond_lane(const Model& model, const State& state, int lane, int slot, double front_m) {
+// Returns the highest safe speed, at most `wanted_mps`, with which a vehicle can be reinserted on an empty lane. A result
+// below 0 means that the gap is too small. The leader is further downstream, but its rear can still be on the lane.
+// Without a trip, the next route of the vehicle is not known yet. The leader is then a vehicle in the diverge area.
+double speed_on_empty_lane_mps(const Model& model, const State& state, int lane, int slot, double front_m,
+                               double wanted_mps) {
     const VehicleArrays& v = state.vehicles;
     const Itinerary itinerary = v.itinerary_of(at(slot));
-    const int trip_edge = itinerary.trip_edge + 1;
-    const int route = state.plan.adjacent(lane).turn_option(state.plan.turn_of_trip(itinerary.trip, trip_edge)).route;
-    if (route < 0) return true;
-    const RoutePosition position{route, 0, itinerary.trip, trip_edge};
+    RoutePosition position{-1, 0, itinerary.trip, itinerary.trip_edge + 1};
+    if (itinerary.has_trip()) {
+        const Turn turn = state.plan.turn_of_trip(itinerary.trip, position.trip_edge);
+        position.route = state.plan.adjacent(lane).turn_option(turn).route;
+    }
     const LeaderAhead leader = leader_ahead(state, lane, front_m, position, model.common_driver().cacc.radar_range_m);
-    if (leader.slot < 0) return true;
-    return rear_m(state, leader) - front_m >= static_cast<double>(v.standstill_gap_m[at(slot)]);
+    if (leader.slot < 0) return wanted_mps;
+    const double gap_m = rear_m(state, leader) - front_m;
+    return safe_entry_speed_mps(model, v.policy[at(slot)], gap_m, v.speed_mps[at(leader.slot)], wanted_mps);
 }
 
 // Reinserts the k-th teleported vehicle at the start of its target lane, with the rear of the vehicle just past the
@@ -98,12 +103,13 @@ bool reinsert_teleported(const Model& model, State& state, int k) {
         front_m = std::min(length_m, lane.stop_line_m);
         const double to_line_m = lane.stop_line_m - front_m;
         speed_mps = std::min(speed_mps, std::sqrt(2.0 * driver.tables.stop.deceleration_mps2 * to_line_m));
-        if (block.count == 0 && !has_room_beyond_lane(model, state, target_lane, waiting, front_m)) return false;
     }
-    const double gap_m = v.standstill_gap_m[at(waiting)];
-    if (block.count > 0) {
+    if (block.count == 0) {
+        speed_mps = speed_on_empty_lane_mps(model, state, target_lane, waiting, front_m, speed_mps);
+        if (speed_mps < 0.0) return false;
+    } else {
         const int last = block.last();
-        const double room_m = rear_m(v, last) - front_m - gap_m;
+        const double room_m = rear_m(v, last) - front_m - static_cast<double>(v.standstill_gap_m[at(waiting)]);
         if (room_m < 0.0) return false;
         // Our choice: the vehicle needs at least 2 s for the room up to its standstill gap.
         constexpr double kApproach_1ps = 0.5;

@@ -19,9 +19,6 @@ namespace stopline {
 namespace {
 
 constexpr double kBeforeStart_s = -1e9;
-// The gap that a new vehicle needs at inlets with a backlog (DemandPlan::forms_backlog()) is computed from this
-// headway. It does not depend on the headway of the arrivals, so vehicles of a backlog can enter at shorter headways.
-constexpr double kBacklogHeadway_s = 2.0;
 
 // Draws spacing policy and route of the next vehicle of an inlet, unless they have been drawn already.
 void draw_next_vehicle(const Model& model, State& state, int number) {
@@ -50,15 +47,23 @@ bool is_connection_occupied(const Model& model, const State& state, int lane) {
                        [&](int connection) { return state.blocks[at(connection)].count > 0; });
 }
 
-// Does the work of entry_at() if the lane of the inlet is an empty link lane (a lane between two intersections). The
-// new vehicle has no leader on this lane, so the leader is searched further downstream.
-Entry entry_on_empty_link(const Model& model, const State& state, int number, int policy, double max_entry_mps) {
+// Returns the route of the next vehicle of an inlet, from the lane of the inlet on. Returns -1 if the vehicle must change
+// lanes for its turn.
+int route_from_inlet(const Model& model, const State& state, int number) {
+    const int lane = model.demand.inlets[at(number)].lane;
+    const int route = state.insertion.inlets[at(number)].next_route;
+    if (state.plan.route(route).front() == lane) return route;
+    return state.plan.adjacent(lane).turn_option(state.plan.turn_of(route)).route;
+}
+
+// Does the work of entry_at() if the lane of the inlet is empty. The new vehicle has no leader on this lane, so the
+// leader is searched further downstream. The rear of this leader can still be on the lane.
+Entry entry_on_empty_lane(const Model& model, const State& state, int number, int policy, double front_m,
+                          double max_mps) {
     const int lane = model.demand.inlets[at(number)].lane;
     const DriverPlan& driver = model.driver_of(policy);
-    const double front_m = model.vehicle_of(policy).length_m;
-    const double max_mps = std::min(max_entry_mps, max_stoppable_speed_mps(model, driver, lane, front_m));
-    const int route = state.insertion.inlets[at(number)].next_route;
-    const LeaderAhead leader = leader_ahead(state, lane, front_m, route, 0, model.common_driver().cacc.radar_range_m);
+    const RoutePosition position{route_from_inlet(model, state, number)};
+    const LeaderAhead leader = leader_ahead(state, lane, front_m, position, model.common_driver().cacc.radar_range_m);
     if (leader.slot < 0) return {true, front_m, max_mps};
     const VehicleArrays& v = state.vehicles;
     const double leader_mps = v.speed_mps[at(leader.slot)];
@@ -78,26 +83,26 @@ Entry entry_at(const Model& model, const State& state, int number, int policy) {
     const LaneBlock& block = state.blocks[at(lane)];
     if (is_connection_occupied(model, state, lane)) return {};
     const bool is_link = !model.connections_to.of(lane).empty();
-    if (block.count == 0 && is_link) return entry_on_empty_link(model, state, number, policy, max_entry_mps);
-    if (block.count == 0) return {true, 0.0, max_entry_mps};
     const double min_front_m = is_link ? model.vehicle_of(policy).length_m : 0.0;
-    const VehicleArrays& v = state.vehicles;
-    const std::size_t last = at(block.last());
-    const double last_rear_m = rear_m(v, last);
     const double max_mps =
         is_link ? std::min(max_entry_mps, max_stoppable_speed_mps(model, model.driver_of(policy), lane, min_front_m))
                 : max_entry_mps;
+    if (block.count == 0) return entry_on_empty_lane(model, state, number, policy, min_front_m, max_mps);
+    const VehicleArrays& v = state.vehicles;
+    const std::size_t last = at(block.last());
+    const double last_rear_m = rear_m(v, last);
     const double speed_mps = std::min(max_mps, v.speed_mps[last]);
     if (model.demand.is_saturated(number)) {
         const double position_m = last_rear_m - desired_gap_m(model, policy, speed_mps);
         return {position_m >= min_front_m, position_m, speed_mps};
     }
-    const bool forms_backlog = model.demand.forms_backlog(number);
-    const double headway_s = forms_backlog ? kBacklogHeadway_s : model.demand.entry_headway_s;
     const double gap_m = last_rear_m - min_front_m;
-    if (gap_m < desired_gap_m(model, policy, speed_mps) + speed_mps * headway_s * 0.5) return {};
-    // Without arrival times, vehicles enter with the speed of the vehicle ahead, as one queue.
-    if (!forms_backlog) return {true, min_front_m, speed_mps};
+    if (!model.demand.forms_backlog(number)) {
+        // Without arrival times, vehicles enter with the speed of the vehicle ahead, as one queue.
+        const double needed_m =
+            desired_gap_m(model, policy, speed_mps) + 0.5 * model.demand.entry_headway_s * speed_mps;
+        return {gap_m >= needed_m, min_front_m, speed_mps};
+    }
     const double safe_mps = safe_entry_speed_mps(model, policy, gap_m, v.speed_mps[last], max_mps);
     return {safe_mps >= 0.0, min_front_m, safe_mps};
 }

@@ -235,7 +235,7 @@ bool insert_trip(const Model& model, State& state, int number, const InsertionPo
     const Turn turn = model.demand.turn_of_trip(number, 0);
     const int route = state.plan.route_with(trip.approach, turn);
     const int lane_route = state.plan.adjacent(point.lane).turn_option(turn).route;
-    const RoutePosition position{lane_route >= 0 ? lane_route : route, 0, number, 0};
+    const RoutePosition position{lane_route, 0, number, 0};
     const EntryLeader leader = entry_leader(model, state, point, position);
     double limit_mps = state.plan.free_speed_mps(point.lane, policy);
     // A vehicle that must change lanes for its turn enters so slowly that it needs at least 2 s to the stop line, from

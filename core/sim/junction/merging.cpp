@@ -11,6 +11,8 @@ namespace stopline {
 
 namespace {
 
+constexpr double kMinGap_m = 0.5;  // smallest net gap at which a candidate enters the conflict area
+
 // Returns the net gap in m from the front of `candidate` on connection `lane` to the rear of a vehicle on connection
 // `other`, whose front is at `other_front_m`. This is the distance of the candidate's front to the exit lane minus the
 // distance of the other vehicle's rear to the exit lane. The gap is negative if the vehicles are side by side, or if
@@ -45,7 +47,6 @@ bool merges_first(const State& state, int lane, const Candidate& candidate, cons
 
 double merging_stop_m(const Model& model, const State& state, int lane, const Candidate& candidate,
                       const Conflict& conflict, int other_slot, double other_front_m) {
-    constexpr double kMinGap_m = 0.5;  // smallest net gap at which the candidate enters the conflict area
     const VehicleArrays& v = state.vehicles;
     const double gap_m = merging_gap_m(state, lane, candidate, conflict.other, other_slot, other_front_m);
     // In full dynamics the brake of the candidate lags. As a reserve for this lag, the vehicle ahead is assumed to
@@ -86,6 +87,15 @@ Wait zipper_wait(const Model& model, const State& state, int lane, const Candida
             leader_front_m = front_m;
         }
     };
+    // A vehicle with its front on the exit lane can have its rear on the other connection. As soon as the candidate has
+    // room to enter the conflict area, it follows this vehicle as its leader on the exit lane, and need not wait.
+    for (const JunctionOccupant& occupant : occupants_of(state, conflict.other)) {
+        if (occupant.front_m <= length_m || (leader >= 0 && occupant.front_m >= leader_front_m)) continue;
+        const double gap_m = merging_gap_m(state, lane, candidate, conflict.other, occupant.slot, occupant.front_m);
+        if (gap_m >= kMinGap_m && candidate.front_m <= conflict.from_m) continue;
+        leader = occupant.slot;
+        leader_front_m = occupant.front_m;
+    }
     look(conflict.other, 0.0);
     look(origin, -state.plan.lane(origin).length_m);
     if (leader < 0) return {};

@@ -30,8 +30,9 @@ double merging_stop_m(const Model& model, const State& state, int lane, const Ca
 
 // Zipper merging (Conflict::zipper): the vehicles of two connections merge in the order of their distances to the exit
 // lane. Returns where `candidate` must be able to stop behind the vehicle of the other connection that is directly
-// ahead of the candidate in this order; no wait if there is no such vehicle. Ignores vehicles that stop at their line
-// or yield.
+// ahead of the candidate in this order; no wait if there is no such vehicle. A vehicle on the exit lane counts
+// while its rear on the other connection leaves no room to enter the conflict area. If the candidate is in this area,
+// such a vehicle always counts. Ignores vehicles that stop at their line or yield.
 Wait zipper_wait(const Model& model, const State& state, int lane, const Candidate& candidate,
                  const Conflict& conflict);
 

@@ -70,6 +70,11 @@ void react_to_leaders_hidden_from_followers(const Model& model, const State& sta
         const double range_m = stopping_distance_m(driver, v.speed_mps[at(slot)]) + v.standstill_gap_m[at(slot)];
         const LeaderAhead hidden = last_vehicle_on_route(state, lane, slot, range_m);
         if (hidden.slot >= 0) add_demand(model, state, lane, slot, hidden, part);
+        if (state.plan.diverge_ends_differ(lane)) {
+            // The first vehicle of the lane may be clear of a vehicle that is in the way of this one.
+            const LeaderAhead diverging = diverging_vehicle(state, lane, connection);
+            if (diverging.slot >= 0) add_demand(model, state, lane, slot, diverging, part);
+        }
         handled[count++] = connection;
         if (count == connection_count) return;
     }

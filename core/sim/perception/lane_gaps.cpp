@@ -20,8 +20,10 @@ Neighbour neighbour(const VehicleArrays& v, int slot, double gap_m) {
 // Returns the leader beyond the end of the lane: the nearest vehicle on `route`, or on any next lane if `route` is -1.
 Neighbour leader_beyond_lane(const State& state, int lane, double front_m, int route) {
     const VehicleArrays& v = state.vehicles;
-    if (route >= 0)
-        return neighbour_beyond_lane(v, leader_ahead(state, lane, front_m, route, 0, kLookAhead_m), front_m);
+    if (route >= 0) {
+        const LeaderAhead leader = leader_ahead(state, lane, front_m, RoutePosition{route}, kLookAhead_m);
+        return neighbour_beyond_lane(v, leader, front_m);
+    }
     Neighbour nearest;
     for (const int next : state.plan.next(lane)) {
         const LaneBlock& block = state.blocks[at(next)];

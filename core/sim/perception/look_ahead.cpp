@@ -20,11 +20,12 @@ constexpr double kFar_m = 1e9;  // position of a rear that does not exist
 
 // The stretch just downstream of a lane's end, where the connections from the lane still overlap. Finds the vehicle on
 // this stretch whose rear is furthest upstream. Ignores vehicles whose front is at most `front_m` downstream of the
-// lane's end.
+// lane's end, and vehicles that are clear of the observer's connection `own`. Of an unknown connection (-1), only
+// vehicles that are clear of all connections count as clear.
 class DivergeArea {
 public:
-    DivergeArea(const State& state, int lane, double front_m = kAll_m)
-        : state_(state), v_(state.vehicles), end_m_(state.plan.lane(lane).length_m), front_m_(front_m) {
+    DivergeArea(const State& state, int lane, int own = -1, double front_m = kAll_m)
+        : state_(state), v_(state.vehicles), own_(own), end_m_(state.plan.lane(lane).length_m), front_m_(front_m) {
         for (const int next : state.plan.next(lane)) search_connection(next);
     }
     // Return the vehicle found (slot -1: none) and the position of its rear, measured from the start of the lane.
@@ -33,7 +34,8 @@ public:
 
 private:
     void search_connection(int connection) {
-        const double clear_m = state_.plan.diverge_end_m(connection);
+        const double clear_m = state_.plan.diverge_end_m(connection, own_);
+        if (front_m_ >= clear_m && front_m_ != kAll_m) return;  // the observer itself is past this position
         const LaneBlock& block = state_.blocks[at(connection)];
         for (int slot = block.last(); slot >= block.first; --slot) {
             if (!consider(slot, 0.0, clear_m) || front_m_ == kAll_m) break;
@@ -48,7 +50,7 @@ private:
 
     // Keeps the vehicle if its rear is the furthest upstream so far. `start_m`: start of the vehicle's lane, measured
     // from the start of the connection. Returns false if the rear is past `clear_m`, a position on the connection: the
-    // vehicle is then clear of the other connections.
+    // vehicle is then clear of the observer's connection.
     bool consider(int slot, double start_m, double clear_m) {
         const double front_m = start_m + v_.position_m[at(slot)];
         const double beyond_m = front_m - v_.length_m[at(slot)];
@@ -65,6 +67,7 @@ private:
 
     const State& state_;
     const VehicleArrays& v_;
+    int own_;
     double end_m_;
     double front_m_;
     double rear_m_ = kFar_m;
@@ -85,7 +88,10 @@ LeaderAhead ahead_on_trip(const State& state, int lane, double position_m, const
     for (int trip_edge = position.trip_edge + 1;; ++trip_edge) {
         const Turn turn = state.plan.turn_of_trip(position.trip, trip_edge);
         const int turn_route = turn == Turn::none ? -1 : state.plan.adjacent(current_lane).turn_option(turn).route;
-        const LeaderAhead diverging = DivergeArea(state, current_lane).vehicle();
+        // If several connections have this turn, the one that the vehicle will take is unknown.
+        const bool is_known = turn_route >= 0 && state.plan.next_parallel_route(turn_route) < 0;
+        const int own = is_known ? state.plan.route(turn_route)[1] : -1;
+        const LeaderAhead diverging = DivergeArea(state, current_lane, own).vehicle();
         if (diverging.slot >= 0) return {diverging.slot, start_m + diverging.lane_start_m};
         if (turn_route < 0) return {};
         const std::span<const int> next_route = state.plan.route(turn_route);
@@ -135,12 +141,12 @@ STOPLINE_INLINE LeaderAhead ahead_on_route(const State& state, int lane, double 
     const std::span<const int> route = state.plan.route(route_number);
     const bool ends_here = at(index) + 1 == route.size();  // other vehicles may drive on beyond the end of the route
     if (here.branches || ends_here) {
-        const DivergeArea diverge_area(state, lane);
+        const DivergeArea diverge_area(state, lane, ends_here ? -1 : route[at(index) + 1]);
         diverging_leader = diverge_area.vehicle();
         beside_rear_m = diverge_area.rear_m();
     } else if (here.origin >= 0 && position_m < state.plan.diverge_end_m(lane)) {
         const double origin_m = state.plan.lane(here.origin).length_m;
-        const DivergeArea diverge_area(state, here.origin, position_m);
+        const DivergeArea diverge_area(state, here.origin, lane, position_m);
         diverging_leader = {diverge_area.vehicle().slot, diverge_area.vehicle().lane_start_m - origin_m};
         beside_rear_m = diverge_area.rear_m() - origin_m;
     }
@@ -181,19 +187,20 @@ LeaderAhead leader_ahead(const State& state, int lane, int slot, double range_m)
 
 LeaderAhead leader_ahead(const State& state, int lane, double position_m, const RoutePosition& position,
                          double range_m) {
-    const LeaderAhead leader = leader_ahead(state, lane, position_m, position.route, position.route_index, range_m);
+    if (position.route < 0) return DivergeArea(state, lane).vehicle();
+    const LeaderAhead leader = ahead_on_route(state, lane, position_m, position.route, position.route_index, range_m);
     if (leader.slot >= 0 || position.trip < 0) return leader;
     return ahead_on_trip(state, lane, position_m, position, range_m);
+}
+
+LeaderAhead diverging_vehicle(const State& state, int lane, int connection) {
+    return DivergeArea(state, lane, connection).vehicle();
 }
 
 LeaderAhead last_vehicle_on_route(const State& state, int lane, int slot, double range_m) {
     const VehicleRecord& record = state.vehicles.record[at(slot)];
     return last_vehicle_on(state, state.plan.route(record.route), at(record.route_index) + 1,
                            state.plan.lane(lane).length_m, state.vehicles.position_m[at(slot)], range_m);
-}
-
-LeaderAhead leader_ahead(const State& state, int lane, double position_m, int route, int index, double range_m) {
-    return ahead_on_route(state, lane, position_m, route, index, range_m);
 }
 
 namespace {

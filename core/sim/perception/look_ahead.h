@@ -23,7 +23,7 @@ inline double rear_m(const State& state, const LeaderAhead& leader) {
 // The position of a vehicle on its route and on its trip. With a trip, the search for the leader continues beyond the
 // end of the route, on the later edges of the trip.
 struct RoutePosition {
-    int route = -1;
+    int route = -1;  // -1: the vehicle has no route from its lane and must change lanes
     int route_index = 0;
     int trip = -1;  // -1: no trip
     int trip_edge = 0;
@@ -35,18 +35,18 @@ struct RoutePosition {
 LeaderAhead leader_ahead(const State& state, int lane, int slot, double range_m);
 
 // Does the same for any observer with its front at `position_m` on `lane`, for example a vehicle that is not inserted
-// yet. Searches only the route, not the trip. Ignores the vehicles on `lane` itself. `route_index`: index of `lane` in
-// `route`.
-LeaderAhead leader_ahead(const State& state, int lane, double position_m, int route, int route_index, double range_m);
-
-// Does the same as the function above, but continues the search beyond the end of the route, on the later edges of the
-// observer's trip.
+// yet. Ignores the vehicles on `lane` itself. An observer without a route has only a vehicle in the diverge area of
+// `lane` as leader.
 LeaderAhead leader_ahead(const State& state, int lane, double position_m, const RoutePosition& position,
                          double range_m);
 
 // Returns the nearest vehicle beyond the end of `lane` on the route of the vehicle in `slot`, within `range_m`. Ignores
 // vehicles on lanes outside this route, for example vehicles that diverge from it.
 LeaderAhead last_vehicle_on_route(const State& state, int lane, int slot, double range_m);
+
+// Returns the vehicle just downstream of the end of `lane` whose rear is furthest upstream, among the vehicles that are
+// not clear of `connection`. `connection` begins on `lane`.
+LeaderAhead diverging_vehicle(const State& state, int lane, int connection);
 
 // Returns true if the rear of the vehicle in slot `ahead` is still on a lane that merges into the route of the vehicle
 // in `slot`. Right of way then prevents contact with this rear, so the vehicle in `slot` need not keep a gap to it.

@@ -90,8 +90,6 @@ public:
     }
 
 private:
-    static constexpr double kHeadway_s = 2.0;  // gives the gap that a vehicle needs to enter
-
     struct Entry {
         double position_m = 0.0;
         double speed_mps = 0.0;
@@ -139,8 +137,7 @@ private:
         const double front_m = is_link ? vehicle.length_m : 0.0;
         double highest_mps = std::min({demand.entry_speed_mps, lane.limit_mps, vehicle.maximum_speed_mps});
         if (is_link) highest_mps = std::min(highest_mps, stoppable_mps(lane, policy, front_m));
-        if (lane.vehicles.empty())
-            return is_link ? entry_on_empty_link(number, policy, front_m, highest_mps) : Entry{0.0, highest_mps};
+        if (lane.vehicles.empty()) return entry_on_empty_lane(number, policy, front_m, highest_mps);
         const Vehicle& last = lane.vehicles.back();
         const double speed_mps = std::min(highest_mps, last.speed_mps);
         const double desired_m = w_.desired_gap_m(policy, speed_mps);
@@ -151,8 +148,11 @@ private:
             return Entry{position_m, speed_mps};
         }
         const double gap_m = last.rear_m() - front_m;
-        if (gap_m < desired_m + 0.5 * kHeadway_s * speed_mps) return std::nullopt;
-        if (!demand.evenly_spaced && plan(number).headway_s == 0.0) return Entry{front_m, speed_mps};
+        if (!demand.evenly_spaced && plan(number).headway_s == 0.0) {
+            if (gap_m < desired_m + 0.5 * demand.entry_headway_s * speed_mps) return std::nullopt;
+            return Entry{front_m, speed_mps};
+        }
+        if (gap_m < desired_m) return std::nullopt;
         return Entry{front_m, safe_mps(policy, gap_m, last.speed_mps, highest_mps)};
     }
 
@@ -174,10 +174,14 @@ private:
         return low_mps;
     }
 
-    std::optional<Entry> entry_on_empty_link(std::size_t number, int policy, double front_m, double highest_mps) const {
+    // The rear of a vehicle whose front has left the lane can still be on the lane.
+    std::optional<Entry> entry_on_empty_lane(std::size_t number, int policy, double front_m, double highest_mps) const {
         const Lane& lane = w_.lane(plan(number).lane);
-        const Ahead leader = perception_.beyond(lane.number, front_m, {routes_.inlets[number].next_route, 0},
-                                                w_.common_driver().cacc.radar_range_m);
+        int route = routes_.inlets[number].next_route;
+        if (w_.route_of(route).front() != lane.number)
+            route = routes_.option(lane.number, routes_.turn_of(route)).route;
+        const Ahead leader =
+            perception_.beyond(lane.number, front_m, {route, 0}, w_.common_driver().cacc.radar_range_m);
         if (leader.vehicle == nullptr) return Entry{front_m, highest_mps};
         const double gap_m = leader.rear_m() - front_m;
         const double b = w_.kind(policy).settings().stop.deceleration_mps2;

@@ -235,7 +235,7 @@ private:
         const Turn turn = w_.model.demand.turn_of_trip(number, 0);
         const int route = routes_.route_on_approach(trip.approach, turn);
         const int lane_route = routes_.option(on.number, turn).route;
-        const EntryLeader leader = leader_at(point, {lane_route >= 0 ? lane_route : route, 0, number, 0});
+        const EntryLeader leader = leader_at(point, {lane_route, 0, number, 0});
         const double to_line_m = on.stop_line_m - point.front_m;
         double limit_mps = w_.free_speed_mps(on, policy);
         if (lane_route < 0) limit_mps = std::min(limit_mps, 0.5 * on.stop_line_m);

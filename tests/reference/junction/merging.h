@@ -29,7 +29,6 @@ public:
     // Returns the position where the candidate must be able to stop behind a vehicle that merges ahead of it: one
     // standstill gap before the place where the rear of that vehicle would come to rest.
     double stop_m(const Candidate& c, const Conflict& conflict, const Vehicle& other, double other_front_m) const {
-        constexpr double kMinGap_m = 0.5;
         const double gap_m =
             to_exit_m(c.connection, c.front_m) - to_exit_m(conflict.other, other_front_m) - other.length_m;
         const double braking_m = w_.is_meso ? comfortable_braking_m(w_.driver(other), other.speed_mps)
@@ -61,6 +60,15 @@ public:
                 leader_front_m = front_m;
             }
         };
+        // A vehicle with its front on the exit lane can have its rear on the other connection.
+        for (const Occupant& occupant : w_.occupants[static_cast<std::size_t>(conflict.other)]) {
+            if (occupant.front_m <= connection.length_m || (leader != nullptr && occupant.front_m >= leader_front_m))
+                continue;
+            const double gap_m = own_m - to_exit_m(conflict.other, occupant.front_m) - occupant.vehicle->length_m;
+            if (gap_m >= kMinGap_m && c.front_m <= conflict.from_m) continue;  // there is room to enter
+            leader = occupant.vehicle;
+            leader_front_m = occupant.front_m;
+        }
         search(connection, 0.0);
         search(approach, -approach.length_m);
         if (leader == nullptr) return {};
@@ -123,6 +131,8 @@ private:
         }
         return false;
     }
+
+    static constexpr double kMinGap_m = 0.5;  // smallest net gap at which a candidate enters the conflict area
 
     World& w_;
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/containers/index.h"
@@ -17,6 +18,7 @@
 namespace stopline {
 namespace {
 
+using testing::fork_net;
 using testing::replaced;
 using testing::SumoFiles;
 using testing::turnaround_net;
@@ -76,6 +78,7 @@ struct Case {
     const char* fidelity;
     std::size_t population;
     const char* slow_exit;  // exit edge with a low speed limit; the queue on this edge holds up the other connections
+    bool is_fork = false;   // fork_net() instead of turnaround_net()
 };
 
 // Shortens the straight connection to 3 m, less than a vehicle.
@@ -89,8 +92,9 @@ class Diverging : public ::testing::TestWithParam<Case> {};
 TEST_P(Diverging, VehiclesOnDifferentConnectionsDoNotTouch) {
     const SumoFiles files;
     const std::string slow = std::string("id=\"") + GetParam().slow_exit + "_0\" index=\"0\" speed=\"";
-    const std::string net = replaced(turnaround_net(), slow + "13.89", slow + "1.5");
-    files.write("my.net.xml", *GetParam().slow_exit == 'c' ? with_short_connection(net) : net);
+    const bool is_fork = GetParam().is_fork;
+    const std::string net = replaced(is_fork ? fork_net() : turnaround_net(), slow + "13.89", slow + "1.5");
+    files.write("my.net.xml", !is_fork && *GetParam().slow_exit == 'c' ? with_short_connection(net) : net);
     files.write("my.rou.xml", R"(<routes>
 <flow id="r" from="a" to="d" vehsPerHour="500" end="200" departSpeed="max"/>
 <flow id="s" from="a" to="c" vehsPerHour="500" end="200" departSpeed="max"/>
@@ -118,16 +122,45 @@ TEST_P(Diverging, VehiclesOnDifferentConnectionsDoNotTouch) {
     }
     EXPECT_GT(pairs, 100);
     EXPECT_GT(smallest_m, 1.0) << "vehicles of 1 m width touch";
-    EXPECT_GT(simulation.state().records.exited, 30);
+    EXPECT_GT(simulation.state().records.exited, is_fork ? 20 : 30);
     EXPECT_TRUE(simulation.state().records.violations.none());
 }
 
 constexpr const char* kMeso = "fidelity: meso\n";
 constexpr const char* kFull = "fidelity: full\nstep: 10 ms\n";
+
+// A slow vehicle drives to c. Its path diverges from the path to b after more than 30 m, but from the path to d after a
+// few metres. Its follower drives to d and does not wait until the slow vehicle is clear of the path to b. A long
+// follower overtakes the slow vehicle while its own rear is still on the stretch that the paths share.
+TEST(DivergingFollower, PassesAVehicleThatHasDiverged) {
+    for (const auto& [fidelity, length_m] :
+         {std::pair<std::string, std::string>{kMeso, "5"}, {kFull, "5"}, {kMeso, "14"}, {kFull, "14"}}) {
+        const SumoFiles files;
+        const std::string c_0 = R"("c_0" index="0" speed=")";
+        files.write("my.net.xml", replaced(fork_net(), c_0 + "13.89", c_0 + "1.5"));
+        files.write("my.rou.xml", "<routes><vType id=\"follower\" length=\"" + length_m + R"("/>
+<trip id="slow" depart="0" from="a" to="c" departSpeed="max"/>
+<trip id="follower" type="follower" depart="4" from="a" to="d" departSpeed="max"/></routes>)");
+        const Scenario scenario = parse_scenario(fidelity +
+                                                     "duration: 60 s\nnetwork: {kind: sumo, net: ./my.net.xml, routes: "
+                                                     "[./my.rou.xml]}\npopulations: [CDG]\nmeasure: {window: 40 s}\n",
+                                                 "my.yaml", {}, files.folder());
+        const Model model = network_model(scenario, 0);
+        Simulation simulation(model);
+        simulation.run_until(40.0);
+        EXPECT_EQ(simulation.state().records.exited, 1) << fidelity << length_m;
+        simulation.run_until(60.0);
+        EXPECT_TRUE(simulation.state().records.violations.none()) << fidelity << length_m;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Cases, Diverging,
                          ::testing::Values(Case{kMeso, 0, "b"}, Case{kMeso, 1, "b"}, Case{kFull, 0, "b"},
                                            Case{kFull, 1, "b"}, Case{kMeso, 0, "c"}, Case{kMeso, 1, "c"},
-                                           Case{kFull, 0, "c"}, Case{kFull, 1, "c"}));
+                                           Case{kFull, 0, "c"}, Case{kFull, 1, "c"}, Case{kMeso, 0, "c", true},
+                                           Case{kMeso, 1, "c", true}, Case{kFull, 0, "c", true},
+                                           Case{kFull, 1, "c", true}, Case{kMeso, 0, "d", true},
+                                           Case{kFull, 1, "d", true}, Case{kFull, 0, "b", true}));
 
 }  // namespace
 }  // namespace stopline

@@ -201,8 +201,15 @@ NetworkPlan::NetworkPlan(const Model& model)
         may_wait_inside_.push_back(lane.waits_inside ? 1 : 0);
         stop_rules_.push_back(lane.stop_rule);
         movement_groups_.push_back(lane.movement_signal_group);
-        diverges_.push_back({lane.diverge_end_m, lane.origin >= 0 && lane.length_m - lane.diverge_end_m < longest_m});
+        diverges_.push_back({lane.diverge_end_m, lane.origin >= 0 && lane.length_m - lane.diverge_end_m < longest_m,
+                             !lane.diverge_ends_m.empty()});
+        diverge_ends_.add(lane.diverge_ends_m);
         next_.add(lane.next);
+    }
+    for (int lane = 0; lane < count; ++lane) {
+        if (!diverge_ends_differ(lane)) continue;
+        int index = 0;
+        for (const int connection : next(lane)) diverges_[at(connection)].index = index++;
     }
     list_conflicts(model);
     std::stable_sort(lane_order_.begin(), lane_order_.end(),

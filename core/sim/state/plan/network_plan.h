@@ -63,6 +63,17 @@ public:
     // Returns the position on a connection from which the connection lies apart from the other connections of the same
     // approach lane. A vehicle whose rear is past this position is clear of these other connections.
     double diverge_end_m(int lane) const { return diverges_[static_cast<std::size_t>(lane)].end_m; }
+    // Returns the same position for a single other connection. `other`: this connection, which begins on the same
+    // approach lane; -1: unknown, so the result holds for all.
+    double diverge_end_m(int lane, int other) const {
+        const DivergePlan& plan = diverges_[static_cast<std::size_t>(lane)];
+        if (!plan.differs || other < 0) return plan.end_m;
+        return diverge_ends_.of(lane)[static_cast<std::size_t>(diverges_[static_cast<std::size_t>(other)].index)];
+    }
+    // Returns true if the connections of an approach lane diverge from each other at different positions.
+    bool diverge_ends_differ(int lane) const {
+        return !next(lane).empty() && diverges_[static_cast<std::size_t>(next(lane)[0])].differs;
+    }
     // Returns true if a vehicle with its front on the exit lane of a connection can still have its rear upstream of
     // diverge_end_m() of this connection.
     bool exit_reaches_back(int lane) const { return diverges_[static_cast<std::size_t>(lane)].exit_reaches_back; }
@@ -110,6 +121,7 @@ public:
         const auto element = [&](const auto& array) { visit(array.data() + lane, array.data() + lane + 1); };
         element(lanes_), element(diverges_), element(movement_groups_), element(may_wait_inside_), element(stop_rules_);
         next_.visit_memory(lane, visit), conflicting_.visit_memory(lane, visit);
+        diverge_ends_.visit_memory(lane, visit);
         model_conflicts_ == nullptr ? own_conflicts_.visit_offsets(lane, visit) : element(*model_conflicts_);
         if (adjacent_index_[static_cast<std::size_t>(lane)] == 0) return;
         for (const TurnOption& option : adjacent(lane).turn_options) {
@@ -159,8 +171,11 @@ private:
     struct DivergePlan {
         double end_m = 0.0;
         bool exit_reaches_back = false;
+        bool differs = false;  // diverge_ends_ has a list for the connection
+        int index = 0;         // of the connection, among those of its approach lane
     };
     LargeArray<DivergePlan> diverges_;  // [lane]
+    PackedLists<double> diverge_ends_;  // [lane] Lane::diverge_ends_m
     const DemandPlan* demand_;
     TripLanes trip_lanes_;
 };
