@@ -65,7 +65,9 @@ std::string assumptions_text(const std::vector<PopulationTiming>& timings, const
     if (std::any_of(timings.begin(), timings.end(), has_left)) {
         notes.emplace_back(
             "Left turns yield to oncoming traffic. The flow of a lane with left turns is measured with a queue on its own "
-            "leg, and with the demand on the oncoming leg.");
+            "leg, and with the demand on the oncoming leg. Its capacity changes from cycle to cycle. d2 includes the "
+            "delay that this causes. The simulated delay of such a lane can still be much higher: add --search to check "
+            "it.");
     }
     if (is_network) {
         notes.emplace_back(
@@ -80,7 +82,8 @@ std::string assumptions_text(const std::vector<PopulationTiming>& timings, const
         "d1 is the delay of evenly spaced arrivals, d2 that of random arrivals (HCM 2000, equations 16-11 and 16-12).";
     if (scenario.demand.arrivals == "even") {
         delays +=
-            " With demand.arrivals: even, vehicles arrive evenly spaced. Simulated delays then contain little of d2.";
+            " With demand.arrivals: even, vehicles arrive evenly spaced. On lanes without left turns, simulated delays "
+            "then contain little of d2.";
     }
     notes.push_back(std::move(delays));
     return paragraphs_text(notes);

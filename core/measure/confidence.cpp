@@ -13,13 +13,6 @@ namespace stopline {
 
 namespace {
 
-double sample_deviation(std::span<const double> values) {
-    const double mean = mean_of(values);
-    double sum = 0.0;
-    for (const double value : values) sum += square(value - mean);
-    return std::sqrt(sum / static_cast<double>(values.size() - 1));
-}
-
 double quantile(double probability, double degrees_of_freedom) {
     return boost::math::quantile(boost::math::students_t(degrees_of_freedom), probability);
 }
@@ -32,6 +25,13 @@ double mean_of(std::span<const double> values) {
     return sum / static_cast<double>(values.size());
 }
 
+double variance_of(std::span<const double> values) {
+    const double mean = mean_of(values);
+    double sum = 0.0;
+    for (const double value : values) sum += square(value - mean);
+    return sum / static_cast<double>(values.size() - 1);
+}
+
 Interval confidence_interval(std::span<const double> values, Band band) {
     const std::size_t min_runs = band == Band::paper ? 3 : 2;
     if (values.size() < min_runs) {
@@ -42,7 +42,7 @@ Interval confidence_interval(std::span<const double> values, Band band) {
     const double factor =
         band == Band::paper ? quantile(0.95, n) / std::sqrt(0.5 * n - 1.0) : quantile(0.975, n - 1.0) / std::sqrt(n);
     const double mean = mean_of(values);
-    const double half_width = factor * sample_deviation(values);
+    const double half_width = factor * std::sqrt(variance_of(values));
     return {mean - half_width, mean + half_width};
 }
 

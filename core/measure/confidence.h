@@ -22,6 +22,9 @@ struct Interval {
 // Returns the mean of at least one value.
 double mean_of(std::span<const double> values);
 
+// Returns the sample variance (with n - 1) of at least two values.
+double variance_of(std::span<const double> values);
+
 // Returns the confidence interval of the mean. Throws InputError for fewer than two values (student) or three (paper).
 Interval confidence_interval(std::span<const double> values, Band band);
 

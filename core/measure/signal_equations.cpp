@@ -52,22 +52,18 @@ double uniform_delay_s(double cycle_s, double effective_green_s, double saturati
     return 0.5 * cycle_s * (1.0 - share) * (1.0 - share) / (1.0 - std::min(1.0, saturation) * share);
 }
 
-double incremental_delay_s(double saturation, double capacity_veh_h, double period_h, double k, double upstream_i) {
+double incremental_delay_s(double saturation, double capacity_veh_h, double period_h, double k, double variance_i) {
     const double excess = saturation - 1.0;
-    const double random = 8.0 * k * upstream_i * saturation / (capacity_veh_h * period_h);
+    const double random = 8.0 * k * variance_i * saturation / (capacity_veh_h * period_h);
     return 900.0 * period_h * (excess + std::sqrt(excess * excess + random));
 }
 
 double initial_queue_delay_s(double queue_veh, double volume_veh_h, double capacity_veh_h, double period_h) {
     if (!(queue_veh > 0.0)) return 0.0;
-    const double spare_veh_h = capacity_veh_h - volume_veh_h;
+    const double spare_veh_h = std::max(capacity_veh_h - volume_veh_h, 0.0);
     const double clears_h = spare_veh_h > 0.0 ? std::min(queue_veh / spare_veh_h, period_h) : period_h;
-    const double end_veh = queue_veh - clears_h * spare_veh_h;
-    const double end_without_veh = spare_veh_h < 0.0 ? -period_h * spare_veh_h : 0.0;
-    const double area_veh_h =
-        clears_h * 0.5 * (queue_veh + end_veh - end_without_veh) +
-        (end_veh * end_veh - end_without_veh * end_without_veh - queue_veh * queue_veh) / (2.0 * capacity_veh_h);
-    return 3600.0 * area_veh_h / (volume_veh_h * period_h);
+    const double mean_queue_veh = clears_h / period_h * (queue_veh - 0.5 * clears_h * spare_veh_h);
+    return 3600.0 * mean_queue_veh / capacity_veh_h;
 }
 
 double BackOfQueue::first_term_veh() const {

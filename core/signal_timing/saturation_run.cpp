@@ -24,26 +24,30 @@ namespace {
 // Part of yellow that drivers use if no lane measures it (HCM 2000, exhibit 10-12: 2 s).
 constexpr double kUsualEndGain_s = 2.0;
 
-// Counts the vehicles that pass each stop line in the measured window.
+// Counts the vehicles that pass each stop line in each of several successive cycles.
 class PassageCounter {
 public:
-    PassageCounter(const LaneGraph& graph, const TimeWindow& window)
-        : passed_(graph.lanes.size(), 0), window_(window) {}
+    PassageCounter(const LaneGraph& graph, double from_s, double cycle_s, int cycles)
+        : passed_(graph.lanes.size(), std::vector<double>(at(cycles), 0.0)), from_s_(from_s), cycle_s_(cycle_s) {}
 
     // Reads the crossings that have been recorded since the last call.
     void read(const Simulation& simulation) {
         const std::vector<Crossing>& crossings = simulation.state().records.crossings;
         for (; read_ < crossings.size(); ++read_) {
             const Detector& detector = simulation.model().detectors[at(crossings[read_].detector)];
-            if (detector.kind != Detector::Kind::stop_line || !window_.contains(crossings[read_].time_s)) continue;
-            ++passed_[at(detector.lane)];
+            if (detector.kind != Detector::Kind::stop_line) continue;
+            const double cycle = std::floor((crossings[read_].time_s - from_s_) / cycle_s_);
+            std::vector<double>& of_lane = passed_[at(detector.lane)];
+            if (cycle >= 0.0 && cycle < static_cast<double>(of_lane.size())) ++of_lane[static_cast<std::size_t>(cycle)];
         }
     }
-    int on(std::size_t lane) const { return passed_[lane]; }
+    // Returns the vehicles that pass the stop line of a lane in each cycle.
+    const std::vector<double>& in_cycles(std::size_t lane) const { return passed_[lane]; }
 
 private:
-    std::vector<int> passed_;  // [lane]
-    TimeWindow window_;
+    std::vector<std::vector<double>> passed_;  // [lane][cycle]
+    double from_s_;
+    double cycle_s_;
     std::size_t read_ = 0;
 };
 
@@ -137,12 +141,12 @@ void measure_left_lanes(const Scenario& saturated, std::size_t population, const
     limit_oncoming_traffic(demands, model);
     const double cycle_s = saturated.signal.intersection_cycle_s();
     const double from_s = saturated.signal.first_green_s + kWarmUpCycles * cycle_s;
-    const TimeWindow window{from_s, from_s + kLeftTurnCycles * cycle_s};
-    PassageCounter counter(model.graph, window);
+    const double to_s = from_s + kLeftTurnCycles * cycle_s;
+    PassageCounter counter(model.graph, from_s, cycle_s, kLeftTurnCycles);
     Simulation simulation(model);
-    while (simulation.time_s() < window.to_s) {
+    while (simulation.time_s() < to_s) {
         const bool reports = simulation.state().tick % kTicksPerReport == 0;
-        if (reports && keep_going && !keep_going(simulation.time_s() / window.to_s)) throw Interrupted();
+        if (reports && keep_going && !keep_going(simulation.time_s() / to_s)) throw Interrupted();
         simulation.step();
     }
     counter.read(simulation);
@@ -151,8 +155,11 @@ void measure_left_lanes(const Scenario& saturated, std::size_t population, const
         const Lane& lane = model.graph.lanes[number];
         if (lane.signal_group < 0 || !is_first_leg(lane)) continue;
         LaneSaturation& measured = result.lanes[result.place(stage_of_lane(lane), index_of_lane(lane))];
-        if (measured.turns_left)
-            measured.vehicles_per_green = static_cast<double>(counter.on(number)) / kLeftTurnCycles;
+        if (!measured.turns_left) continue;
+        const std::vector<double>& passed = counter.in_cycles(number);
+        measured.vehicles_per_green = mean_of(passed);
+        if (measured.vehicles_per_green > 0.0)
+            measured.capacity_variance_ratio = variance_of(passed) / measured.vehicles_per_green;
     }
 }
 
@@ -181,6 +188,10 @@ std::size_t Saturation::place(int stage, int index) const {
 Scenario saturated_scenario(const Scenario& scenario, const StageGreens& greens_s) {
     Scenario saturated = scenario;
     saturated.network.kind = "intersection";
+    // No vehicle that is further from the stop line at the start of green passes it before red.
+    IntersectionSettings& layout = saturated.network.intersection;
+    const double reach_m = layout.speed_limit_mps * (std::max(greens_s[0], greens_s[1]) + saturated.signal.yellow_s);
+    layout.approach_length_m = std::max(layout.approach_length_m, reach_m);
     saturated.duration_s = 0.0;  // until the end of the measured cycles
     saturated.signal.first_green_s = 1.0;
     saturated.signal.green_s = greens_s[0];
@@ -202,7 +213,7 @@ Saturation measure_saturation(const Scenario& scenario, std::size_t population, 
     const Scenario saturated = saturated_scenario(scenario, input.greens_s);
     const Model model = build_model(saturated, population);
     const TimeWindow window = measured_window(saturated);
-    PassageCounter counter(model.graph, window);
+    PassageCounter counter(model.graph, window.from_s, saturated.signal.intersection_cycle_s(), kSaturationCycles);
     Observation observation;
     observation.look = [&](std::size_t, const Simulation& simulation) { counter.read(simulation); };
     const auto on_step = [&](const Simulation& simulation) {
@@ -228,8 +239,8 @@ Saturation measure_saturation(const Scenario& scenario, std::size_t population, 
         const auto named = [&](const Lane& lane) { return lane.name == one.lane; };
         const auto lane = std::find_if(model.graph.lanes.begin(), model.graph.lanes.end(), named);
         LaneSums& sum = sums[result.place(stage_of_lane(*lane), index_of_lane(*lane))];
-        const int passed = counter.on(static_cast<std::size_t>(lane - model.graph.lanes.begin()));
-        sum.vehicles_per_green.push_back(static_cast<double>(passed) / kSaturationCycles);
+        const auto number = static_cast<std::size_t>(lane - model.graph.lanes.begin());
+        sum.vehicles_per_green.push_back(mean_of(counter.in_cycles(number)));
         if (one.saturated_greens == 0) continue;
         sum.saturation_headway_s.push_back(one.saturation_headway_s);
         sum.startup_lost_time_s.push_back(one.startup_lost_time_s);

@@ -11,7 +11,11 @@
 // A lane with left turns: vehicles that yield to oncoming traffic hold those behind them, so the headways of unhindered
 // queues would overestimate its flow. A second run therefore saturates only one leg of each street, and lets vehicles
 // arrive on the other leg at the rate of the demand. The flow of the lane is the number of vehicles that pass in a
-// green, divided by the effective green of its stage.
+// green, divided by the effective green of its stage. This number changes from cycle to cycle, because the first
+// left-turning vehicle of a queue blocks the vehicles behind it. Its variance increases the delay.
+//
+// The flow of such a lane remains somewhat too high. The saturated leg blocks the left turns of the oncoming leg, and the
+// vehicles behind them are missing in the oncoming traffic.
 #pragma once
 
 #include <array>
@@ -26,7 +30,7 @@ namespace stopline {
 
 inline constexpr double kSaturationGreen_s = 40.0;  // green of both stages in the first measurement
 inline constexpr int kSaturationCycles = 10;        // measured cycles, after one cycle of warm-up
-inline constexpr int kLeftTurnCycles = 20;          // measured cycles of the second run, after three cycles of warm-up
+inline constexpr int kLeftTurnCycles = 40;          // measured cycles of the second run, after three cycles of warm-up
 
 // The mean of the lanes of a stage that have the same place in their approach.
 struct LaneSaturation {
@@ -36,6 +40,8 @@ struct LaneSaturation {
     double flow_veh_h = 0.0;
     double startup_lost_time_s = 0.0;  // NaN: no queue of five vehicles passes in a green
     double vehicles_per_green = 0.0;
+    // Variance of the vehicles that pass in a green, over their mean. 0 without left turns, where it is negligible.
+    double capacity_variance_ratio = 0.0;
 };
 
 struct StageLostTime {
@@ -61,7 +67,7 @@ struct Saturation {
 using StageGreens = std::array<double, kTimingStages>;  // displayed greens, s
 
 // Returns the scenario of the first run: the intersection of the scenario alone, with saturated demand and these
-// greens.
+// greens. The approaches are so long that all vehicles that pass in a green have stood in the queue.
 Scenario saturated_scenario(const Scenario& scenario, const StageGreens& greens_s);
 
 struct SaturationInput {

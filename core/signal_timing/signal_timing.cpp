@@ -32,6 +32,7 @@ std::vector<LaneTiming> busiest_lanes(const std::vector<LaneDemand>& demands, co
             if (lane.demand.lane.empty() || one.flow_veh_h > lane.demand.flow_veh_h) lane.demand = one;
         }
         lane.saturation_flow_veh_h = measured.flow_veh_h;
+        lane.capacity_variance_ratio = measured.capacity_variance_ratio;
         lane.flow_ratio = flow_ratio(lane.demand.flow_veh_h, measured.flow_veh_h);
         lanes.push_back(std::move(lane));
     }
@@ -50,7 +51,10 @@ void mark_critical_lanes(PopulationTiming& timing) {
     }
 }
 
-// Sets what the HCM predicts for each lane with the times of the signal.
+// Sets what the HCM predicts for each lane with the times of the signal. If the capacity changes from cycle to cycle, its
+// variance adds to that of the arrivals. The mean queue in heavy traffic grows with the sum of both (J. F. C. Kingman,
+// On queues in heavy traffic, J. Royal Statistical Society B 24, 1962). So the factor I of the HCM, which is the ratio
+// of variance and mean of the arrivals, becomes the sum of both ratios.
 void predict(PopulationTiming& timing) {
     double delay_s = 0.0;
     double demand_veh_h = 0.0;
@@ -60,7 +64,8 @@ void predict(PopulationTiming& timing) {
         lane.capacity_veh_h = capacity_veh_h(lane.saturation_flow_veh_h, green_s, timing.cycle_s);
         lane.saturation = lane.demand.flow_veh_h / lane.capacity_veh_h;
         lane.uniform_delay_s = uniform_delay_s(timing.cycle_s, green_s, lane.saturation);
-        lane.incremental_delay_s = incremental_delay_s(lane.saturation, lane.capacity_veh_h);
+        lane.incremental_delay_s = incremental_delay_s(lane.saturation, lane.capacity_veh_h, kHcmPeriod_h,
+                                                       kPretimedSignal, 1.0 + lane.capacity_variance_ratio);
         delay_s += lane.demand.flow_veh_h * lane.delay_s();
         demand_veh_h += lane.demand.flow_veh_h;
     }

@@ -24,6 +24,7 @@ struct SignalTimes {
 struct LaneTiming {
     LaneDemand demand;
     double saturation_flow_veh_h = 0.0;
+    double capacity_variance_ratio = 0.0;  // LaneSaturation::capacity_variance_ratio
     double flow_ratio = 0.0;
     bool is_critical = false;  // the highest flow ratio of its stage
     // The values below are NaN if the demand is too high for a timing.

@@ -98,6 +98,19 @@ TEST(SignalTiming, LongerGreenForTheHigherFlow) {
     EXPECT_FALSE(timing.lanes[1].is_critical);
 }
 
+TEST(SignalTiming, VarianceOfTheCapacityAddsToTheDelay) {
+    const Scenario scenario = timed_intersection();
+    Saturation saturation = plain_saturation();
+    saturation.lanes[0].capacity_variance_ratio = 1.0;
+    const PopulationTiming timing = timing_of(scenario, plain_demand(450.0, 450.0), saturation, {});
+    const LaneTiming& varying = timing.lanes[0];
+    const LaneTiming& constant = timing.lanes[1];
+    EXPECT_DOUBLE_EQ(varying.uniform_delay_s, constant.uniform_delay_s);
+    EXPECT_DOUBLE_EQ(varying.incremental_delay_s,
+                     incremental_delay_s(varying.saturation, varying.capacity_veh_h, 0.25, 0.5, 2.0));
+    EXPECT_GT(varying.incremental_delay_s, 1.5 * constant.incremental_delay_s);
+}
+
 TEST(SignalTiming, MinimumGreens) {
     const Scenario scenario = timed_intersection();
     TimingOptions options;
@@ -185,11 +198,31 @@ TEST(Saturation, LeftTurnsLowerTheFlowOfTheirLane) {
     EXPECT_TRUE(saturation.lanes[0].turns_left);
     EXPECT_FALSE(saturation.lanes[1].turns_left);
     EXPECT_LT(saturation.lanes[0].flow_veh_h, 0.9 * saturation.lanes[1].flow_veh_h);
+    // The first left-turning vehicle of a queue blocks the vehicles behind it, at a random place in the queue.
+    EXPECT_GT(saturation.lanes[0].capacity_variance_ratio, 0.2);
+    EXPECT_EQ(saturation.lanes[1].capacity_variance_ratio, 0.0);
     // With less oncoming traffic, more vehicles turn.
     const Scenario quiet =
         timed_intersection({"demand.left=20 %", "demand.inflow=100 veh/h", "fidelity=meso", "meso=passages"});
     const Saturation freer = measure_saturation(quiet, 0, {lane_demands(build_model(quiet, 0))});
     EXPECT_GT(freer.lanes[0].flow_veh_h, 1.1 * saturation.lanes[0].flow_veh_h);
+}
+
+// The short gaps of CDG let many vehicles pass in a green. They must all have stood in the queue: otherwise their number
+// and the headway of the queue do not fit together, and the lost time is below 0.
+TEST(Saturation, QueuesOfDenseVehiclesOutlastTheGreen) {
+    const Scenario scenario =
+        timed_intersection({"demand.inflow=4700 veh/h", "fidelity=meso", "meso=passages", "populations=[CDG]"});
+    SaturationInput input{lane_demands(build_model(scenario, 0))};
+    for (const double green_s : {15.0, 40.0, 80.0}) {
+        input.greens_s = {green_s, green_s};
+        const Saturation saturation = measure_saturation(scenario, 0, input);
+        for (const StageLostTime& lost : saturation.lost) {
+            EXPECT_GT(lost.end_gain_s, 0.0) << green_s;
+            EXPECT_LE(lost.end_gain_s, scenario.signal.yellow_s + 0.6) << green_s;
+            EXPECT_GT(lost.total_s(scenario.signal.yellow_s, scenario.signal.all_red_s), 0.0) << green_s;
+        }
+    }
 }
 
 TEST(SignalTiming, CountsAProfileWithItsHighestFactor) {
