@@ -1,4 +1,5 @@
 // stopline-compare: runs SUMO and the mesoscale mode on the same inputs and compares the results.
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -72,15 +73,19 @@ std::size_t chosen_population(const CompareCliOptions& options, const Scenario& 
     return 0;
 }
 
-// Returns the confidence band of SUMO's mean as text. Sets `inside` to "yes" if our mean lies in the band, to "no" if
-// it does not, and to "-" if there is no band.
+// Returns the confidence band of SUMO's mean as text. Sets `inside` to "yes" if our mean lies in the band or equals
+// SUMO's mean, to "no" if it does not, and to "-" if there is no band.
 std::string band_text(const ComparedMetric& metric, Band band, std::string& inside) {
     const std::size_t min_runs = band == Band::paper ? 3 : 2;
     inside = "-";
     if (metric.sumo_only || metric.sumo.size() < min_runs || std::isnan(mean_of(metric.sumo))) return "-";
     const Interval interval = metric.band(band);
+    const double ours = mean_of(metric.ours);
+    const double sumo = mean_of(metric.sumo);
+    const bool is_equal = std::fabs(ours - sumo) <= 1e-9 * std::max(1.0, std::fabs(sumo));
+    if (is_equal) inside = "yes";
     if (interval.high - interval.low < 1e-6 * std::fabs(interval.high)) return "no spread";
-    inside = interval.contains(mean_of(metric.ours)) ? "yes" : "no";
+    inside = is_equal || interval.contains(ours) ? "yes" : "no";
     return fmt::format("{:.2f} .. {:.2f}", interval.low, interval.high);
 }
 

@@ -49,6 +49,15 @@ std::string warnings_text(const NetworkReport& report) {
     return text;
 }
 
+// Names the causes of delay that the table of shares leaves out.
+std::string other_causes_text(const Scenario& scenario) {
+    if (scenario.rules.clearing == "cooperative") {
+        return "The rest of it is due to signals, yielding, queue discharge and refusals by cooperative clearing\n"
+               "(summary.csv).\n";
+    }
+    return "The rest of it is due to signals, yielding and queue discharge (summary.csv).\n";
+}
+
 // Returns one console table of the metrics and its notes.
 struct TableWithNotes {
     std::string table;
@@ -84,9 +93,9 @@ std::string network_text(const NetworkReport& report) {
                           first_violations);
     return results + fmt::format("\nMeasured area: {}.\n", area) + result_notes + window_text(report) +
            warnings_text(report) + "\n\nShare of the delay by cause | gridlocks and uses of the rules\n" + congestion +
-           "\nBoth cover the whole run and the whole network. Delay is the time that vehicles are stopped.\n"
-           "The rest of it is due to signals, yielding and queue discharge (summary.csv).\n" +
-           congestion_notes + (has_trips ? "\nTrips\n" + trips + trip_notes : backlog_text(report)) + "\n" + verdict +
+           "\nBoth cover the whole run and the whole network. Delay is the time that vehicles are stopped.\n" +
+           other_causes_text(report.scenario) + congestion_notes +
+           (has_trips ? "\nTrips\n" + trips + trip_notes : backlog_text(report)) + "\n" + verdict +
            starvation_text(report.scenario, report.starvations(), report.lanes);
 }
 

@@ -90,8 +90,13 @@ std::string ideal_text(const SingleLightReport& result) {
     }
     std::string text =
         "Vehicles passed in ideal platoons: same platoon leaders, followers keep the gap of their policy exactly";
-    if (compares) text += fmt::format(" | mean improvement for green times from {:.4g} s [%]", kSaturated_s);
-    return text + "\n" + table.text() + "\n";
+    if (!compares) return text + "\n" + table.text() + "\n";
+    const std::string notes = fmt::format(
+        "  mean improvement: over all green times from {0:.4g} s to {1:.4g} s, at most until one of the two queues\n"
+        "  has emptied; counts with a * in the first table do not enter. -: a queue empties before {0:.4g} s\n",
+        kSaturated_s, result.scenario.signal.green_s);
+    return text + fmt::format(" | mean improvement for green times from {:.4g} s [%]\n", kSaturated_s) + table.text() +
+           notes + "\n";
 }
 
 std::string headways_text(const SingleLightReport& result) {
@@ -107,12 +112,10 @@ std::string headways_text(const SingleLightReport& result) {
 }
 
 std::string queue_text(const SingleLightReport& result) {
-    // A queue has not closed up if its net gaps differ by more than this tolerance.
-    constexpr double kTolerance_m = 1.0;
     std::string names;
     for (const PopulationSummary& summary : result.populations) {
-        if (!(summary.queue.largest_m > summary.queue.smallest_m + kTolerance_m)) continue;
-        names += fmt::format("{}{} ({:.1f} m)", names.empty() ? "" : ", ", summary.name, summary.queue.largest_m);
+        if (std::isnan(summary.queue.largest_open_m)) continue;
+        names += fmt::format("{}{} ({:.1f} m)", names.empty() ? "" : ", ", summary.name, summary.queue.largest_open_m);
     }
     if (names.empty()) return "";
     return "The end of the queue has not closed up when the green starts (largest net gap):\n  " + names +

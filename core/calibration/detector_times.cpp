@@ -128,7 +128,9 @@ Agreement agreement(std::span<const PermutationPairs> permutations, double limit
             const double difference_s = std::abs(pair.difference_s());
             differences_s.push_back(difference_s);
             within += difference_s <= limit_s ? 1 : 0;
-            total.other_green += difference_s >= 0.5 * permutation.cycle_s ? 1 : 0;
+            // A signal without a cycle has a single green.
+            const bool is_other_green = permutation.cycle_s > 0.0 && difference_s >= 0.5 * permutation.cycle_s;
+            total.other_green += is_other_green ? 1 : 0;
         }
     }
     std::sort(differences_s.begin(), differences_s.end());

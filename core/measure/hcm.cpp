@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <span>
 
 #include "base/containers/index.h"
@@ -17,12 +18,27 @@ namespace {
 constexpr double kSeconds = 3600.0;        // per hour
 constexpr double kLongestHeadway_s = 4.0;  // between two vehicles of a discharging queue
 
-// Returns the cycles that lie within the window.
-std::span<const HcmCycle> cycles_within(const HcmRecord& record, const TimeWindow& window) {
-    const auto is_before = [&](const HcmCycle& cycle) { return cycle.from_s < window.from_s; };
-    const auto first = std::find_if_not(record.cycles.begin(), record.cycles.end(), is_before);
-    const auto last = std::find_if(first, record.cycles.end(), [&](const HcmCycle& c) { return c.to_s > window.to_s; });
-    return {first, last};
+// A cycle of a lane, from start of red to start of red: one interval for each of its greens.
+using LaneCycle = std::span<const HcmInterval>;
+
+// Returns the cycles that lie within the window and whose greens are all recorded.
+std::vector<LaneCycle> cycles_within(const HcmRecord& record, const TimeWindow& window) {
+    std::vector<LaneCycle> cycles;
+    std::size_t most_greens = 0;
+    for (auto first = record.intervals.begin(); first != record.intervals.end();) {
+        const auto is_other = [&](const HcmInterval& i) { return i.cycle < 0 || i.cycle != first->cycle; };
+        const auto last = std::find_if(std::next(first), record.intervals.end(), is_other);
+        cycles.emplace_back(first, last);
+        most_greens = std::max(most_greens, cycles.back().size());
+        first = last;
+    }
+    // The record can begin within a cycle, and it can end before the last green of a cycle.
+    if (!cycles.empty() && cycles.back().size() < most_greens) cycles.pop_back();
+    std::erase_if(cycles, [&](const LaneCycle& cycle) {
+        const bool has_begun_before = cycle.front().cycle >= 0 && cycle.front().cycle == record.first_cycle;
+        return has_begun_before || cycle.front().from_s < window.from_s || cycle.back().to_s > window.to_s;
+    });
+    return cycles;
 }
 
 // Measures the headways of a lane by its position in the queue.
@@ -49,32 +65,37 @@ LaneDischarge discharge_of(const LaneGraph& graph, const HcmRecord& record, cons
 
 // Measures the mean time from the end of green to the last passage of a queued vehicle, over the greens for which the
 // queue lasts. It is below 0 if the last vehicle passes before the end of green.
-void measure_end_gain(std::span<const HcmCycle> cycles, const std::vector<HcmPassage>& passages, HcmRow& row) {
+void measure_end_gain(std::span<const HcmInterval> intervals, const std::vector<HcmPassage>& passages, HcmRow& row) {
     // A queue whose last vehicle passes earlier than kLongestHeadway_s before the end of green was held by something
     // else, such as oncoming traffic.
     double sum_s = 0.0;
     auto passage = passages.begin();
-    for (const HcmCycle& cycle : cycles) {
+    for (const HcmInterval& interval : intervals) {
         double last_s = -1.0;
-        for (; passage != passages.end() && passage->time_s < cycle.to_s; ++passage) {
-            if (passage->time_s >= cycle.green_from_s && passage->has_queued) last_s = passage->time_s;
+        for (; passage != passages.end() && passage->time_s < interval.to_s; ++passage) {
+            if (passage->time_s >= interval.green_from_s && passage->has_queued) last_s = passage->time_s;
         }
-        if (!cycle.is_used || last_s < cycle.green_to_s - kLongestHeadway_s) continue;
-        sum_s += last_s - cycle.green_to_s;
+        if (!interval.is_used || last_s < interval.green_to_s - kLongestHeadway_s) continue;
+        sum_s += last_s - interval.green_to_s;
         ++row.used_greens;
     }
     row.end_gain_s = row.used_greens > 0 ? sum_s / row.used_greens : 0.0;
 }
 
-void measure_queues(std::span<const HcmCycle> cycles, HcmRow& row) {
+// The queue of a cycle is the longest one of its intervals.
+void measure_queues(const std::vector<LaneCycle>& cycles, HcmRow& row) {
     std::vector<double> back_veh;
     std::vector<double> back_m;
     int residual = 0;
-    for (const HcmCycle& cycle : cycles) {
-        back_veh.push_back(cycle.back_veh);
-        back_m.push_back(cycle.back_m);
-        residual += cycle.residual_veh > 0 ? 1 : 0;
-        row.green_s += (cycle.green_to_s - cycle.green_from_s) / row.cycles;
+    for (const LaneCycle& cycle : cycles) {
+        back_veh.push_back(0.0);
+        back_m.push_back(0.0);
+        for (const HcmInterval& interval : cycle) {
+            back_veh.back() = std::max<double>(back_veh.back(), interval.back_veh);
+            back_m.back() = std::max(back_m.back(), interval.back_m);
+            row.green_s += (interval.green_to_s - interval.green_from_s) / row.cycles;
+        }
+        residual += cycle.back().residual_veh > 0 ? 1 : 0;
     }
     row.back_50_veh = percentile(back_veh, 0.5);
     row.back_95_veh = percentile(back_veh, 0.95);
@@ -84,18 +105,20 @@ void measure_queues(std::span<const HcmCycle> cycles, HcmRow& row) {
 }
 
 // Measures one lane without its capacity, which can depend on the other lanes.
-HcmRow measured_row(const LaneGraph& graph, const HcmRecord& record, std::span<const HcmCycle> cycles) {
+HcmRow measured_row(const LaneGraph& graph, const HcmRecord& record, const std::vector<LaneCycle>& cycles) {
+    const std::span<const HcmInterval> intervals(cycles.front().begin(), cycles.back().end());
     HcmRow row;
     row.name = graph.lanes[at(record.lane)].name;
     row.approach = record.approach;
     row.intersection = record.intersection;
     row.has_endless_demand = record.has_endless_demand;
-    const TimeWindow whole{cycles.front().from_s, cycles.back().to_s};
+    const TimeWindow whole{intervals.front().from_s, intervals.back().to_s};
     row.cycles = static_cast<int>(cycles.size());
     row.cycle_s = whole.length_s() / row.cycles;
+    row.greens_per_cycle = static_cast<double>(intervals.size()) / row.cycles;
     measure_queues(cycles, row);
     row.discharge = discharge_of(graph, record, whole, row.cycle_s);
-    measure_end_gain(cycles, record.passages, row);
+    measure_end_gain(intervals, record.passages, row);
     int passed = 0;
     for (const HcmPassage& passage : record.passages) {
         if (!whole.contains(passage.time_s)) continue;
@@ -105,10 +128,13 @@ HcmRow measured_row(const LaneGraph& graph, const HcmRecord& record, std::span<c
     }
     row.control_delay_s = passed > 0 ? row.control_delay_s / passed : kNan;
     row.stops = passed > 0 ? row.stops / passed : kNan;
-    const int growth = cycles.back().present_veh - cycles.front().present_before_veh;
-    row.initial_queue_veh = cycles.front().residual_before_veh;
+    // A teleported vehicle has arrived, too, although it does not pass. A vehicle that changes lanes arrives on its last
+    // lane, so the sum of the lane that it leaves can be negative.
+    int arrived = passed + intervals.back().present_veh - intervals.front().present_before_veh;
+    for (const HcmInterval& interval : intervals) arrived += interval.teleported_veh;
+    row.initial_queue_veh = intervals.front().residual_before_veh;
     row.passed_veh_h = kSeconds * passed / whole.length_s();
-    row.volume_veh_h = kSeconds * (passed + growth) / whole.length_s();
+    row.volume_veh_h = kSeconds * std::max(arrived, 0) / whole.length_s();
     return row;
 }
 
@@ -149,9 +175,23 @@ void set_saturation_flows(std::vector<HcmRow>& rows) {
     }
 }
 
-void apply_equations(HcmRow& row) {
+// Sets delay and back of queue by the formula.
+void apply_delay_formula(HcmRow& row) {
     const double period_h = row.cycles * row.cycle_s / kSeconds;
-    row.effective_green_s = std::clamp(row.green_s - row.startup_lost_time_s + row.end_gain_s, 0.0, row.cycle_s);
+    row.uniform_delay_s = uniform_delay_s(row.cycle_s, row.effective_green_s, row.saturation);
+    row.incremental_delay_s = incremental_delay_s(row.saturation, row.capacity_veh_h, period_h);
+    row.initial_queue_delay_s =
+        initial_queue_delay_s(row.initial_queue_veh, row.volume_veh_h, row.capacity_veh_h, period_h);
+    const BackOfQueue back{row.volume_veh_h,      row.capacity_veh_h,      row.cycle_s,
+                           row.effective_green_s, row.incremental_delay_s, row.initial_queue_delay_s};
+    constexpr double kNormal95 = 1.64;  // quantile of the normal distribution, as in HCM chapter 31
+    row.formula_back_50_veh = back.percentile_veh(0.0);
+    row.formula_back_95_veh = back.percentile_veh(kNormal95);
+}
+
+void apply_equations(HcmRow& row) {
+    const double change_s = row.greens_per_cycle * (row.end_gain_s - row.startup_lost_time_s);
+    row.effective_green_s = std::clamp(row.green_s + change_s, 0.0, row.cycle_s);
     row.capacity_veh_h = row.effective_green_s > 0.0
                              ? capacity_veh_h(row.saturation_flow_veh_h, row.effective_green_s, row.cycle_s)
                              : kNan;
@@ -163,15 +203,15 @@ void apply_equations(HcmRow& row) {
         row.effective_green_s = row.capacity_veh_h * row.cycle_s / row.saturation_flow_veh_h;
     }
     row.saturation = row.volume_veh_h / row.capacity_veh_h;
-    row.uniform_delay_s = uniform_delay_s(row.cycle_s, row.effective_green_s, row.saturation);
-    row.incremental_delay_s = incremental_delay_s(row.saturation, row.capacity_veh_h, period_h);
-    row.initial_queue_delay_s =
-        initial_queue_delay_s(row.initial_queue_veh, row.volume_veh_h, row.capacity_veh_h, period_h);
-    const BackOfQueue back{row.volume_veh_h,      row.capacity_veh_h,      row.cycle_s,
-                           row.effective_green_s, row.incremental_delay_s, row.initial_queue_delay_s};
-    constexpr double kNormal95 = 1.64;  // quantile of the normal distribution, as in HCM chapter 31
-    row.formula_back_50_veh = back.percentile_veh(0.0);
-    row.formula_back_95_veh = back.percentile_veh(kNormal95);
+    // The formulas hold for one red and one green in a cycle.
+    if (row.greens_per_cycle > 1.0) {
+        for (double* value : {&row.uniform_delay_s, &row.incremental_delay_s, &row.initial_queue_delay_s,
+                              &row.formula_back_50_veh, &row.formula_back_95_veh}) {
+            *value = kNan;
+        }
+    } else {
+        apply_delay_formula(row);
+    }
     const bool has_residual_queues = row.residual_share >= 0.5;
     if (row.saturation > 1.0 || (row.has_endless_demand && has_residual_queues)) {
         row.state = HcmState::oversaturated;
@@ -255,7 +295,7 @@ double percentile(std::vector<double> values, double share) {
 std::vector<HcmRow> hcm_rows(const LaneGraph& graph, const std::vector<HcmRecord>& records, const TimeWindow& window) {
     std::vector<HcmRow> rows;
     for (const HcmRecord& record : records) {
-        const std::span<const HcmCycle> cycles = cycles_within(record, window);
+        const std::vector<LaneCycle> cycles = cycles_within(record, window);
         if (!cycles.empty()) rows.push_back(measured_row(graph, record, cycles));
     }
     set_saturation_flows(rows);

@@ -7,9 +7,10 @@
 // reaches kFreeFlowShare of its free-flow speed beyond the stop line. The free-flow speed on a connection is the limit
 // of the connection, so that slow driving inside a turn is no delay.
 //
-// All values of a lane cover whole cycles within the window, from start of red to start of red.
+// All values of a lane cover whole cycles of its signal within the window, from start of red to start of red.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -29,19 +30,24 @@ struct HcmPassage {
     bool has_queued = false;
 };
 
-// One cycle of a lane, from start of red to start of red.
-struct HcmCycle {
+// A red of a lane and the green after it, from start of red to start of red. A cycle of the signal can have several
+// intervals, such as a protected and a permissive green of a left turn.
+struct HcmInterval {
     double from_s = 0.0;
     double to_s = 0.0;
     double green_from_s = 0.0;
     double green_to_s = 0.0;
     int back_veh = 0;             // vehicles in the queue at the start of red, and vehicles that joined it later
     double back_m = 0.0;          // greatest distance from the stop line to the rear of a queued vehicle
-    int residual_veh = 0;         // queued vehicles that have not passed at the end of the cycle
+    int residual_veh = 0;         // queued vehicles that have not passed at the end of the interval
     int present_veh = 0;          // vehicles before the stop line at the end, with those that wait to enter
     bool is_used = false;         // queued vehicles are left at the end of green
-    int residual_before_veh = 0;  // the same two numbers at the start of the cycle
+    int residual_before_veh = 0;  // the same two numbers at the start of the interval
     int present_before_veh = 0;
+    // Number of the cycle of the signal in which the interval ends. Intervals with the same number are one cycle of the
+    // lane. -1: the interval is a cycle of its own.
+    std::int64_t cycle = -1;
+    int teleported_veh = 0;  // vehicles that a teleport removed before the stop line
 };
 
 // The record of a lane during a run.
@@ -49,9 +55,10 @@ struct HcmRecord {
     int lane = -1;
     std::string approach;
     std::string intersection;
-    bool has_endless_demand = false;   // a vehicle always waits to enter the lane
-    std::vector<HcmCycle> cycles;      // in order of time, without gaps
-    std::vector<HcmPassage> passages;  // in order of time
+    bool has_endless_demand = false;     // a vehicle always waits to enter the lane
+    std::int64_t first_cycle = -1;       // number of the cycle in which the first interval begins; -1: not known
+    std::vector<HcmInterval> intervals;  // in order of time, without gaps
+    std::vector<HcmPassage> passages;    // in order of time
     std::vector<double> green_starts_s;
 };
 
@@ -71,7 +78,8 @@ struct HcmRow {
     std::string intersection;
     int cycles = 0;
     double cycle_s = 0.0;
-    double green_s = 0.0;
+    double green_s = 0.0;  // sum over the greens of a cycle
+    double greens_per_cycle = 0.0;
     LaneDischarge discharge;
     int used_greens = 0;                 // greens for which the queue lasts
     double saturation_flow_veh_h = 0.0;  // fewer than kMinGreens saturated greens: mean of all lanes
@@ -83,6 +91,7 @@ struct HcmRow {
     double passed_veh_h = 0.0;  // vehicles that pass the stop line
     double saturation = 0.0;    // degree of saturation X, volume over capacity
     double control_delay_s = 0.0;
+    // Values of the formula. They hold for one green in a cycle: NaN for lanes that have more.
     double uniform_delay_s = 0.0;        // d1
     double incremental_delay_s = 0.0;    // d2
     double initial_queue_delay_s = 0.0;  // d3

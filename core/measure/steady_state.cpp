@@ -38,6 +38,7 @@ struct Sums {
 
 std::size_t warm_up(std::span<const double> values) {
     constexpr std::size_t kBatch = 5;
+    if (values.size() < kMinWarmUpValues) return 0;
     std::vector<double> means;
     for (std::size_t k = 0; k + kBatch <= values.size(); k += kBatch) {
         double sum = 0.0;

@@ -7,7 +7,11 @@
 
 namespace stopline {
 
-// Returns the number of values at the beginning that belong to the warm-up: a multiple of 5, and 0 for short series.
+// For fewer values, the end of the warm-up cannot be found.
+inline constexpr std::size_t kMinWarmUpValues = 15;
+
+// Returns the number of values at the beginning that belong to the warm-up: a multiple of 5. Returns 0 for fewer than
+// kMinWarmUpValues values.
 //
 // The method is the marginal standard error rule with means of five values (MSER-5: White 1997, Simulation 69(6);
 // White, Cobb and Spratt 2000, Winter Simulation Conference). It tries each position in the first half of the series

@@ -17,7 +17,8 @@ std::unique_ptr<RunWriter> make_fcd_writer(const std::filesystem::path& file, co
                                            const Model& model);
 
 // Returns a writer for completed trips, with one element for each vehicle that left the network. A teleport does not
-// end a trip. The attribute departDelay is 0 for a vehicle without a planned departure.
+// end a trip. The attribute depart is the first time at which the vehicle is in the network. The attribute departDelay
+// is departure_delay_s() (departure_delay.h).
 std::unique_ptr<RunWriter> make_tripinfo_writer(const std::filesystem::path& file, const Model& model);
 
 // Returns a writer for the data of all detectors, in the format of SUMO's induction loops. An element holds, for one

@@ -3,6 +3,7 @@
 
 #include "base/io/escape.h"
 #include "base/speed_thresholds.h"
+#include "record/departure_delay.h"
 #include "record/lane_names.h"
 #include "record/sumo_files.h"
 #include "record/vehicle_name.h"
@@ -13,7 +14,8 @@ namespace stopline {
 namespace {
 
 struct Trip {
-    double depart_s = 0.0;
+    double depart_s = 0.0;  // first time at which the vehicle is in the network
+    double departure_delay_s = 0.0;
     double depart_m = 0.0;
     double depart_mps = 0.0;
     std::string depart_lane;
@@ -70,6 +72,7 @@ private:
             trip.depart_lane = place.lane;
             trip.policy = v.policy[slot];
             trip.number = v.itinerary_of(slot).trip;
+            trip.departure_delay_s = departure_delay_s(model_, trip.number, state.tick);
         } else {
             const double limit_mps = model_.graph.lanes[static_cast<std::size_t>(lane)].limit_mps;
             const bool is_stopped = speed_mps < kStoppedSpeed_mps;
@@ -107,19 +110,13 @@ private:
             "    <tripinfo id=\"{}\" depart=\"{:.2f}\" departLane=\"{}\" departPos=\"{:.2f}\" departSpeed=\"{:.2f}\" "
             "departDelay=\"{:.2f}\" arrival=\"{:.2f}\" arrivalLane=\"{}\" arrivalPos=\"{:.2f}\" arrivalSpeed=\"{:.2f}\" ",
             vehicle_name(model_, trip.number, vehicle), trip.depart_s, trip.depart_lane, trip.depart_m, trip.depart_mps,
-            departure_delay_s(trip), arrival_s, arrival.lane, arrival.position_m, trip.speed_mps);
+            trip.departure_delay_s, arrival_s, arrival.lane, arrival.position_m, trip.speed_mps);
         xml_.add(
             "duration=\"{:.2f}\" routeLength=\"{:.2f}\" waitingTime=\"{:.2f}\" waitingCount=\"{}\" stopTime=\"0.00\" "
             "timeLoss=\"{:.2f}\" rerouteNo=\"0\" devices=\"\" vType=\"{}\" speedFactor=\"1.00\" vaporized=\"\"/>\n",
             arrival_s - trip.depart_s, distance_m, trip.stopped_s, trip.stops, trip.time_loss_s,
             escape_xml(model_.policies[static_cast<std::size_t>(trip.policy)].settings.name));
         ++ended_;
-    }
-
-    // Returns the time from the planned departure to the insertion, or 0 if the vehicle has no planned departure.
-    double departure_delay_s(const Trip& trip) const {
-        if (trip.number < 0) return 0.0;
-        return std::max(trip.depart_s - model_.demand.trips[static_cast<std::size_t>(trip.number)].depart_s, 0.0);
     }
 
     const Model& model_;

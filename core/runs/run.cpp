@@ -43,13 +43,13 @@ LeaderGap leader_gap(const Model& model, const State& state, int lane, int slot)
     return {rear_m(state, ahead) - v.position_m[at(slot)], model.vehicles[at(v.type_of(at(ahead.slot)))].length_m};
 }
 
-// Returns the net gaps between the vehicles of the first lane, m.
-std::vector<double> queue_gaps(const State& state) {
-    std::vector<double> gaps;
+// Returns the gaps between the vehicles of the first lane.
+std::vector<QueueGap> queue_gaps(const State& state) {
+    std::vector<QueueGap> gaps;
+    const VehicleArrays& v = state.vehicles;
     const LaneBlock& block = state.blocks[0];
-    for (std::size_t i = at(block.first) + 1; i < at(block.past_last()); ++i) {
-        gaps.push_back(net_gap_m(state.vehicles, i - 1, i));
-    }
+    for (std::size_t i = at(block.first) + 1; i < at(block.past_last()); ++i)
+        gaps.push_back({net_gap_m(v, i - 1, i), v.standstill_gap_m[i]});
     return gaps;
 }
 
@@ -121,7 +121,7 @@ RunResult run_population(const Scenario& scenario, std::size_t population, const
         const std::int64_t tick = simulation.state().tick;
         if (!has_started && simulation.state().signals.green_start_tick[0] == tick) {
             has_started = true;
-            result.queue_gaps_m = queue_gaps(simulation.state());
+            result.queue_gaps = queue_gaps(simulation.state());
             if (tick != green_tick) result.green_start_s = simulation.time_s();
         }
         const double now_s = simulation.time_s();

@@ -37,6 +37,12 @@ struct TrajectoryPoint {
 // Appends one point for each vehicle in the network, lane by lane.
 void sample_vehicles(const Simulation& simulation, std::vector<TrajectoryPoint>& points);
 
+// A follower in a queue.
+struct QueueGap {
+    double net_gap_m = 0.0;         // to its leader
+    double standstill_gap_m = 0.0;  // that its policy keeps at rest
+};
+
 struct RunOptions {
     double trajectory_interval_s = 0.0;  // sampling interval; 0: no trajectories
     double trajectory_from_s = 0.0;
@@ -54,7 +60,7 @@ struct RunResult {
     std::vector<double> stop_line_times_s;  // times of passages over stop lines, counted from green_start_s, sorted
     std::vector<TrajectoryPoint> trajectory;
     std::vector<HcmRow> hcm;           // empty unless measure.hcm is on
-    std::vector<double> queue_gaps_m;  // net gaps in the queue of the first lane at the start of green
+    std::vector<QueueGap> queue_gaps;  // followers in the queue of the first lane at the start of green
     Violations violations;
     V2vResult v2v;
     DrivingResults driving;

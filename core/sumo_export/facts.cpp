@@ -1,6 +1,5 @@
 #include "sumo_export/facts.h"
 
-#include <algorithm>
 #include <cmath>
 #include <unordered_map>
 #include <utility>
@@ -8,6 +7,7 @@
 #include "base/containers/index.h"
 #include "base/speed_thresholds.h"
 #include "base/units.h"
+#include "record/departure_delay.h"
 #include "sumo_import/sumo_xml.h"
 
 namespace stopline {
@@ -35,7 +35,7 @@ private:
         for (; next_passage_ < state.records.passages.size(); ++next_passage_) {
             const Passage& passage = state.records.passages[next_passage_];
             if (passage.from_lane < 0) {
-                entries_[passage.vehicle] = {passage.time_s, departure_delay_s(state, passage)};
+                entries_[passage.vehicle] = {passage.time_s, delay_of_entry_s(state, passage)};
             } else if (passage.to_lane < 0) {
                 const auto found = entries_.find(passage.vehicle);
                 const Entry from = found == entries_.end() ? Entry{} : found->second;
@@ -51,15 +51,12 @@ private:
         }
     }
 
-    // Returns the time from the planned departure to the insertion, s. Even a vehicle without delay appears only at the
-    // end of the step in which it departs. So one step is subtracted.
-    double departure_delay_s(const State& state, const Passage& passage) const {
+    // Returns the departure delay of a vehicle that has entered the network in the present step, s.
+    double delay_of_entry_s(const State& state, const Passage& passage) const {
         const LaneBlock& block = state.blocks[at(passage.to_lane)];
         for (int slot = block.first; slot < block.past_last(); ++slot) {
             if (state.vehicles.id[at(slot)] != passage.vehicle) continue;
-            const int trip = state.vehicles.itinerary_of(at(slot)).trip;
-            if (trip < 0) break;
-            return std::max(passage.time_s - model_.demand.trips[at(trip)].depart_s - model_.step_s, 0.0);
+            return departure_delay_s(model_, state.vehicles.itinerary_of(at(slot)).trip, state.tick);
         }
         return 0.0;
     }

@@ -203,7 +203,13 @@ FinishedStep estimated_step(const PowertrainTables& t, double after_mps, double 
     return step;
 }
 
-double fuel_g_per_h(const EnergySettings& settings, double power_W) { return interpolate(settings.fuel_rate, power_W); }
+double fuel_g_per_h(const EnergySettings& settings, double power_W) {
+    const SampledCurve& curve = settings.fuel_rate;
+    const std::size_t points = curve.x.size();
+    if (points < 2 || power_W <= curve.x.back()) return interpolate(curve, power_W);
+    const double slope = (curve.y.back() - curve.y[points - 2]) / (curve.x.back() - curve.x[points - 2]);
+    return curve.y.back() + slope * (power_W - curve.x.back());
+}
 
 double motor_loss_W(const EnergySettings& s, double rpm, double torque_Nm) {
     const std::size_t columns = s.loss_torque_Nm.size();

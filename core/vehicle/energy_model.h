@@ -75,7 +75,8 @@ struct EnergyUse {
     }
 };
 
-// Returns the fuel rate. `power_W` is the power at the crankshaft, auxiliaries included.
+// Returns the fuel rate. `power_W` is the power at the crankshaft, auxiliaries included. Beyond the last point of the
+// curve, the fuel rate rises with the slope of its last segment.
 double fuel_g_per_h(const EnergySettings& settings, double power_W);
 
 // Returns the losses of motor and inverter.

@@ -35,6 +35,13 @@ TEST(Agreement, CountsPairsWithinTheLimitAndInDifferentGreens) {
     EXPECT_DOUBLE_EQ(a.largest_s, 30.0);
 }
 
+// A signal that never changes again has the cycle 0. All vehicles use the same green, however late they are.
+TEST(Agreement, HasNoOtherGreenWithoutACycle) {
+    const PairedTimes paired = pair_up({{1.0, 2.0, 50.0}}, {{1.0, 3.0, 80.0}});
+    const PermutationPairs permutation{&paired, 0.0};
+    EXPECT_EQ(agreement({&permutation, 1}, 1.0).other_green, 0u);
+}
+
 TEST(FitLoss, IsZeroForEqualTimesAndNearOneForDistantTimes) {
     EXPECT_DOUBLE_EQ(fit_loss(pair_up({{1.0, 2.0}}, {{1.0, 2.0}}), 1.0), 0.0);
     EXPECT_DOUBLE_EQ(fit_loss(pair_up({{1.0}}, {{2.0}}), 1.0), 0.5);

@@ -29,7 +29,8 @@ HcmRecord saturated_lane(int cycles) {
     for (int k = 0; k < cycles; ++k) {
         const double from_s = k * kCycle_s;
         const double green_s = from_s + 27.0;
-        record.cycles.push_back({from_s, from_s + kCycle_s, green_s, green_s + kGreen_s, 16, 120.0, 2, 2, true, 2, 2});
+        record.intervals.push_back(
+            {from_s, from_s + kCycle_s, green_s, green_s + kGreen_s, 16, 120.0, 2, 2, true, 2, 2});
         record.green_starts_s.push_back(green_s);
         double time_s = green_s;
         for (int n = 0; n < 14; ++n) {
@@ -72,11 +73,53 @@ TEST(Hcm, CountsWholeCyclesWithinTheWindowOnly) {
     EXPECT_TRUE(rows_of({saturated_lane(10)}, {30.0, 100.0}).empty());
 }
 
+// A left turn with a protected and a permissive green in each cycle of the signal, 120 s.
+TEST(Hcm, TwoGreensOfACycleAreOneCycleWithoutFormula) {
+    HcmRecord record = saturated_lane(20);
+    for (int k = 0; k < 20; ++k) {
+        HcmInterval& interval = record.intervals[static_cast<std::size_t>(k)];
+        interval.cycle = k / 2;
+        interval.back_veh = k % 2 == 0 ? 16 : 3;
+        interval.residual_veh = k % 2 == 0 ? 2 : 0;
+    }
+    const std::vector<HcmRow> rows = rows_of({record});
+    const HcmRow& row = rows.front();
+    EXPECT_EQ(row.cycles, 10);
+    EXPECT_NEAR(row.cycle_s, 2.0 * kCycle_s, 1e-9);
+    EXPECT_NEAR(row.green_s, 2.0 * kGreen_s, 1e-9);
+    EXPECT_NEAR(row.effective_green_s, 2.0 * 28.0, 1e-9);  // each green has its own lost time and end gain
+    EXPECT_NEAR(row.capacity_veh_h, 14.0 * 3600.0 / kCycle_s, 1e-9);
+    EXPECT_NEAR(row.saturation, 1.0, 1e-9);
+    EXPECT_NEAR(row.back_50_veh, 16.0, 1e-9);
+    EXPECT_NEAR(row.residual_share, 0.0, 1e-9);  // the queue clears in the second green
+    EXPECT_NEAR(row.control_delay_s, 20.0, 1e-9);
+    EXPECT_EQ(row.level, 'B');
+    for (const double value : {row.uniform_delay_s, row.incremental_delay_s, row.initial_queue_delay_s,
+                               row.formula_back_50_veh, row.formula_back_95_veh, rows.back().formula_delay_s()}) {
+        EXPECT_TRUE(std::isnan(value)) << value;
+    }
+    EXPECT_EQ(row.formula_level, '-');
+    EXPECT_EQ(rows.back().formula_level, '-');
+    EXPECT_NEAR(rows.back().control_delay_s, 20.0, 1e-9);
+}
+
+TEST(Hcm, CountsWholeCyclesOfTwoGreensOnly) {
+    HcmRecord record = saturated_lane(6);
+    const std::vector<std::int64_t> cycles{4, 5, 5, 6, 6, 7};  // the record begins and ends within a cycle
+    for (std::size_t k = 0; k < 6; ++k) record.intervals[k].cycle = cycles[k];
+    record.first_cycle = 4;
+    EXPECT_EQ(rows_of({record}).front().cycles, 2);
+    EXPECT_NEAR(rows_of({record}).front().cycle_s, 2.0 * kCycle_s, 1e-9);
+    const HcmRow later = rows_of({record}, {130.0, 1e6}).front();
+    EXPECT_EQ(later.cycles, 1);
+    EXPECT_EQ(rows_of({record}, {0.0, 290.0}).front().cycles, 1);
+}
+
 TEST(Hcm, GrowingQueueIsOversaturatedAndHasLevelF) {
     HcmRecord record = saturated_lane(10);
     for (int k = 0; k < 10; ++k) {
-        record.cycles[static_cast<std::size_t>(k)].present_before_veh = 2 * k;
-        record.cycles[static_cast<std::size_t>(k)].present_veh = 2 * (k + 1);
+        record.intervals[static_cast<std::size_t>(k)].present_before_veh = 2 * k;
+        record.intervals[static_cast<std::size_t>(k)].present_veh = 2 * (k + 1);
     }
     const HcmRow row = rows_of({record}, {60.0, 600.0}).front();
     EXPECT_NEAR(row.volume_veh_h - row.passed_veh_h, 120.0, 1e-9);  // two vehicles more in each minute
@@ -85,13 +128,34 @@ TEST(Hcm, GrowingQueueIsOversaturatedAndHasLevelF) {
     EXPECT_EQ(row.level, 'F');  // although the measured delay is 20 s
 }
 
+// 14 vehicles pass in each of 10 cycles. Of the vehicles before the stop line, 30 are teleported in the first cycle.
+TEST(Hcm, TeleportedVehiclesHaveArrived) {
+    HcmRecord record = saturated_lane(10);
+    record.intervals.front().present_before_veh = 40;
+    record.intervals.back().present_veh = 10;
+    record.intervals.front().teleported_veh = 30;
+    EXPECT_NEAR(rows_of({record}).front().volume_veh_h, 14.0 * 3600.0 / kCycle_s, 1e-9);
+}
+
+// 200 vehicles leave the lane by changing to another one, so more vehicles leave than arrive.
+TEST(Hcm, VolumeIsNotNegative) {
+    HcmRecord record = saturated_lane(10);
+    record.intervals.front().present_before_veh = 200;
+    const HcmRow row = rows_of({record}).front();
+    EXPECT_EQ(row.volume_veh_h, 0.0);
+    EXPECT_EQ(row.saturation, 0.0);
+    EXPECT_EQ(row.incremental_delay_s, 0.0);
+    EXPECT_GT(row.initial_queue_delay_s, 0.0);
+    EXPECT_TRUE(std::isfinite(row.formula_delay_s()));
+}
+
 TEST(Hcm, ResidualQueuesAreSaturatedAndEndlessDemandIsOversaturated) {
     HcmRecord record = saturated_lane(10);
     EXPECT_EQ(rows_of({record}).front().state, HcmState::saturated);
     EXPECT_EQ(rows_of({record}).front().level, 'B');  // 20 s
     record.has_endless_demand = true;
     EXPECT_EQ(rows_of({record}).front().state, HcmState::oversaturated);
-    for (HcmCycle& cycle : record.cycles) cycle.residual_veh = 0;
+    for (HcmInterval& interval : record.intervals) interval.residual_veh = 0;
     EXPECT_EQ(rows_of({record}).front().state, HcmState::free);
 }
 
@@ -99,7 +163,7 @@ TEST(Hcm, LanesWithoutSaturatedGreenUseTheOthers) {
     HcmRecord other = saturated_lane(10);
     other.approach = "other";
     for (HcmPassage& passage : other.passages) passage = {passage.time_s, 8.0, 0, false};
-    for (HcmCycle& cycle : other.cycles) cycle.is_used = false;
+    for (HcmInterval& interval : other.intervals) interval.is_used = false;
     const std::vector<HcmRow> rows = rows_of({saturated_lane(10), other});
     ASSERT_EQ(rows.size(), 5U);  // two lanes, two approaches, one intersection
     EXPECT_EQ(rows[1].discharge.saturated_greens, 0);
@@ -123,7 +187,7 @@ TEST(Hcm, PointQueueOfEvenArrivalsHasTheUniformDelay) {
         const double from_s = k * kCycle_s;
         const double green_s = from_s + 30.0;
         // Green ends 2 s, the end gain, before the last vehicle passes.
-        record.cycles.push_back({from_s, from_s + kCycle_s, green_s, from_s + 58.0});
+        record.intervals.push_back({from_s, from_s + kCycle_s, green_s, from_s + 58.0});
         record.green_starts_s.push_back(green_s);
         double last_s = green_s;
         for (int n = 0; n < 300; ++n) {
@@ -165,8 +229,8 @@ TEST(Hcm, PercentileInterpolates) {
 TEST(Hcm, BackOfQueueOfHandMadeCycles) {
     HcmRecord record = saturated_lane(11);
     for (int k = 0; k < 11; ++k) {
-        record.cycles[static_cast<std::size_t>(k)].back_veh = k;
-        record.cycles[static_cast<std::size_t>(k)].back_m = 7.0 * k;
+        record.intervals[static_cast<std::size_t>(k)].back_veh = k;
+        record.intervals[static_cast<std::size_t>(k)].back_m = 7.0 * k;
     }
     const HcmRow row = rows_of({record}).front();
     EXPECT_NEAR(row.back_50_veh, 5.0, 1e-9);
@@ -200,6 +264,16 @@ TEST(HcmEquations, InitialQueueDelayIsTheAreaOfTheQueue) {
                 1e-9);
     // At volume = capacity the queue stays, and every vehicle waits for the same 10 vehicles.
     EXPECT_NEAR(initial_queue_delay_s(10.0, 600.0, 600.0, 1.0), 3600.0 * 10.0 / 600.0, 1e-9);
+    // Above capacity, the queue of the excess volume is no part of this delay.
+    EXPECT_NEAR(initial_queue_delay_s(10.0, 700.0, 600.0, 1.0), 3600.0 * 10.0 / 600.0, 1e-9);
+    // A queue of 100 vehicles still has 50 vehicles at the end of a period of 0.5 h: arrivals wait for 75 on average.
+    EXPECT_NEAR(initial_queue_delay_s(100.0, 500.0, 600.0, 0.5), 3600.0 * 75.0 / 600.0, 1e-9);
+}
+
+// Without volume, a queue of 10 vehicles clears in 1/60 h. Until then, an arrival would wait for 5 vehicles on average.
+TEST(HcmEquations, InitialQueueDelayIsDefinedWithoutVolume) {
+    EXPECT_NEAR(initial_queue_delay_s(10.0, 0.0, 600.0, 1.0), 3600.0 * 5.0 / 600.0 / 60.0, 1e-9);
+    EXPECT_NEAR(initial_queue_delay_s(10.0, 1e-6, 600.0, 1.0), initial_queue_delay_s(10.0, 0.0, 600.0, 1.0), 1e-6);
 }
 
 }  // namespace

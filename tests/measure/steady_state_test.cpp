@@ -38,6 +38,11 @@ TEST(WarmUp, IsShortForASteadySeriesAndZeroForAShortSeries) {
     EXPECT_EQ(warm_up({}), 0u);
 }
 
+TEST(WarmUp, CanBeFoundInTheSmallestSeries) {
+    EXPECT_EQ(warm_up(series_with_ramp(5, kMinWarmUpValues)), 5u);
+    EXPECT_EQ(warm_up(series_with_ramp(5, kMinWarmUpValues - 1)), 0u);
+}
+
 TEST(Collapse, IsFoundAtTheDrop) {
     std::vector<double> values;
     for (std::size_t k = 0; k < 60; ++k) values.push_back((k < 37 ? 100.0 : 80.0) + 5.0 * noise(k));

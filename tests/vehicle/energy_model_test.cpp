@@ -152,6 +152,17 @@ TEST(EnergyMaps, AreExactAtTheirNodes) {
     }
 }
 
+// The curves of some vehicles end below the rated power. The fuel per energy must not fall there.
+TEST(EnergyMaps, FuelRisesBeyondTheLastPointOfTheCurve) {
+    for (const char* name : {"rigid_lorry_12t", "city_bus_12m", "articulated_lorry_35t"}) {
+        const EnergySettings fuel = *load_vehicle(name).energy;
+        const double last_W = fuel.fuel_rate.x.back();
+        const double beyond_W = 1.2 * last_W;
+        const double rate_g_per_h = fuel_g_per_h(fuel, beyond_W);
+        EXPECT_NEAR(rate_g_per_h / beyond_W, fuel.fuel_rate.y.back() / last_W, 0.02 * rate_g_per_h / beyond_W) << name;
+    }
+}
+
 TEST(EnergyUse, FuelFallsFromNoPowerToZeroAtTheDragTorque) {
     const Car car("petrol_eu4_72kw");
     const EnergySettings& energy = *car.settings.energy;

@@ -18,9 +18,9 @@ bool is_network_sweep(const CsvTable& results);
 // Returns the figures of a results table: lines_N, surfaces_N (maps of the metrics) and stability_N (maps of
 // stability). For several intersections, lines_N has the name network_N. planes.h says which axes of the sweep are
 // drawn. N numbers the combinations of values of all other axes, and the titles show these values. Results are means
-// over seeds, with 95 % confidence intervals. If only one axis varies, surfaces_N is left out. stability_N exists for
-// several intersections only. Returns an empty list if sweep_metrics() or sweep_planes() returns nothing. `baseline` is
-// the population with which the others are compared; empty: the first one.
+// over seeds. lines_N also has their 95 % confidence intervals. If only one axis varies, surfaces_N is left out.
+// stability_N exists for several intersections only. Returns an empty list if sweep_metrics() or sweep_planes() returns
+// nothing. `baseline` is the population with which the others are compared; empty: the first one.
 std::vector<Figure> sweep_figures(const CsvTable& results, const CellTitles& titles,
                                   const std::string& population_column = "population",
                                   const std::string& baseline = "");

@@ -63,7 +63,6 @@ void FrameEncoder::append(const Snapshot& snapshot, std::string& bytes) {
     encode_lights(snapshot.lights);
     vacate_slots(snapshot);
     for (const Snapshot::Placement& placement : snapshot.placements) encode_placement(placement);
-    for (const Snapshot::BeyondStopLine& vehicle : snapshot.beyond_stop_line) encode_next_lane(vehicle);
     compare_motion(snapshot);
     encode_exits();
     encode_causes(snapshot);
@@ -121,23 +120,17 @@ void FrameEncoder::encode_placement(const Snapshot::Placement& placement) {
     vacate(placement.slot);
     if (at(placement.vehicle) >= seat_of_.size()) seat_of_.resize(2 * at(placement.vehicle) + 1000, -1);
     int seat = seat_of_[at(placement.vehicle)];
+    std::uint32_t last_motion = kUnknownMotion;
     if (seat < 0) {
         seat = assign_seat(placement);
     } else if (seats_[at(seat)].lane != placement.lane || seats_[at(seat)].next != placement.next_lane) {
         encode_lane(seat, placement.lane, placement.next_lane);
+    } else {
+        last_motion = motion_[at(seat)].position | std::uint32_t{motion_[at(seat)].speed} << 16U;
     }
     seats_[at(seat)].slot = placement.slot;
     seat_in_slot_[at(placement.slot)] = seat;
-    last_motion_[at(placement.slot)] = kUnknownMotion;
-}
-
-// Writes the next lane of a vehicle beyond the stop line if it differs from the next lane that was written last. The
-// vehicle can change its next lane without leaving its slot, and then the snapshot has no new Placement for it.
-void FrameEncoder::encode_next_lane(const Snapshot::BeyondStopLine& vehicle) {
-    const int seat = seat_in_slot_[at(vehicle.slot)];
-    if (seats_[at(seat)].next == vehicle.next_lane) return;
-    encode_lane(seat, vehicle.lane, vehicle.next_lane);
-    last_motion_[at(vehicle.slot)] = kUnknownMotion;
+    last_motion_[at(placement.slot)] = last_motion;
 }
 
 // Finds the vehicles whose position and speed this frame must contain, and sets the bits of their seats (a seat is the
@@ -198,6 +191,7 @@ void FrameEncoder::encode_lane(int seat, int lane, int next) {
 
 void FrameEncoder::encode_exits() {
     Events& events = events_[exit_events];
+    std::sort(vacated_.begin(), vacated_.end());
     for (const int seat : vacated_) {
         Seat& known_seat = seats_[at(seat)];
         const bool has_left = known_seat.vehicle >= 0 && seat_in_slot_[at(known_seat.slot)] != seat;
@@ -220,6 +214,7 @@ void FrameEncoder::encode_causes(const Snapshot& snapshot) {
     if (cause_tick == cause_tick_) return;
     cause_tick_ = cause_tick;
     update_waits(snapshot);
+    std::sort(waiting_seats_.begin(), waiting_seats_.end());
     std::erase_if(waiting_seats_, [&](int seat) {
         Wait& wait = waits_[at(seat)];
         if (seats_[at(seat)].vehicle >= 0) encode_reason(seat, wait.is_current ? wait.reason : Reason{});

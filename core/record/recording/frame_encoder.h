@@ -1,7 +1,10 @@
 // Encodes snapshots (copies of the state of a run, snapshot.h) as frames of a recording (recording_format.h). The
 // encoder tracks vehicles by slot, which is the index of a vehicle in the arrays of the simulation. A snapshot contains
-// position and speed of every vehicle. For each vehicle that is new or was in another slot before, the snapshot also
-// contains a Placement, which names the vehicle, its slot and its lane.
+// position and speed of every vehicle. For each vehicle that is new, was in another slot before or has a new next lane,
+// the snapshot also contains a Placement, which names the vehicle, its slot and its lane.
+//
+// Slots depend on the number of threads, but the bytes must not. So a Placement in another slot is no event of its own,
+// and exits and delay causes are written in the order of the seats.
 #pragma once
 
 #include <array>
@@ -71,7 +74,6 @@ private:
     void vacate_slots(const Snapshot& snapshot);
     void vacate(int slot);
     void encode_placement(const Snapshot::Placement& placement);
-    void encode_next_lane(const Snapshot::BeyondStopLine& vehicle);
     void compare_motion(const Snapshot& snapshot);
     int seat_of(int vehicle) const;
     int assign_seat(const Snapshot::Placement& placement);

@@ -33,6 +33,8 @@
 // replaces the position in the previous frame. Seats without a vehicle have position and speed 0. At the start of a
 // FRMS section all seats are empty and all lights are red.
 //
+// The bytes do not depend on the number of threads of the run.
+//
 // Why not another format? Floating-point columns would be larger. One row per vehicle would compress less well. Columns
 // with an element for every seat would take longer to write, because many vehicles are stopped.
 #pragma once

@@ -47,12 +47,7 @@ void copy_stopped(const State& state, std::vector<Snapshot::StoppedVehicle>& cop
 SnapshotTaker::SnapshotTaker(const Model& model, const FrameGrid& grid)
     : positions_per_m_(1.0 / grid.position_unit_m),
       link_kinds_(link_kinds_of(model)),
-      lanes_(model.graph.lanes.size()) {
-    for (const Lane& lane : model.graph.lanes) {
-        const double line_m = lane.signal_group >= 0 ? lane.stop_line_m : lane.length_m;
-        stop_line_.push_back(code_of(line_m, positions_per_m_));
-    }
-}
+      lanes_(model.graph.lanes.size()) {}
 
 void SnapshotTaker::start_section() { std::fill(vehicle_in_slot_.begin(), vehicle_in_slot_.end(), -1); }
 
@@ -62,9 +57,11 @@ void SnapshotTaker::take(const State& state, bool with_stopped, Snapshot& snapsh
     snapshot.entered = state.records.entered;
     snapshot.exited = state.records.exited;
     snapshot.lights = state.signals.lights;
-    if (vehicle_in_slot_.size() < at(vehicles.slots)) vehicle_in_slot_.resize(at(vehicles.slots), -1);
+    if (vehicle_in_slot_.size() < at(vehicles.slots)) {
+        vehicle_in_slot_.resize(at(vehicles.slots), -1);
+        next_lane_in_slot_.resize(at(vehicles.slots), -1);
+    }
     snapshot.placements.clear();
-    snapshot.beyond_stop_line.clear();
     snapshot.motion.resize(update_lanes(state, snapshot));
     std::uint32_t* motion = snapshot.motion.data();
     for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
@@ -72,10 +69,10 @@ void SnapshotTaker::take(const State& state, bool with_stopped, Snapshot& snapsh
         if (slots.count == 0) continue;
         const std::size_t first = at(slots.first);
         encode_motion(&vehicles.position_m[first], &vehicles.speed_mps[first], slots.count, positions_per_m_, motion);
-        if (differ(&vehicles.id[first], &vehicle_in_slot_[first], slots.count)) {
+        if (differ(&vehicles.id[first], &vehicle_in_slot_[first], slots.count) ||
+            differ(&vehicles.next_lane[first], &next_lane_in_slot_[first], slots.count)) {
             add_placements(vehicles, static_cast<int>(lane), snapshot);
         }
-        add_beyond_stop_line(vehicles, static_cast<int>(lane), motion, snapshot);
         motion += slots.count;
     }
     if (with_stopped) copy_stopped(state, snapshot.stopped);
@@ -107,19 +104,12 @@ void SnapshotTaker::add_placements(const VehicleArrays& vehicles, int lane, Snap
     const Snapshot::Slots slots = lanes_[at(lane)];
     for (int slot = slots.first; slot < slots.past_last(); ++slot) {
         const int vehicle = vehicles.id[at(slot)];
-        if (vehicle == vehicle_in_slot_[at(slot)]) continue;
+        const int next_lane = vehicles.next_lane[at(slot)];
+        if (vehicle == vehicle_in_slot_[at(slot)] && next_lane == next_lane_in_slot_[at(slot)]) continue;
         vehicle_in_slot_[at(slot)] = vehicle;
-        snapshot.placements.push_back({slot, lane, vehicle, vehicles.policy[at(slot)], vehicles.next_lane[at(slot)],
-                                       vehicles.length_m[at(slot)]});
-    }
-}
-
-void SnapshotTaker::add_beyond_stop_line(const VehicleArrays& vehicles, int lane, const std::uint32_t* motion,
-                                         Snapshot& snapshot) const {
-    const Snapshot::Slots slots = lanes_[at(lane)];
-    for (int slot = slots.first; slot < slots.past_last() && position_of(*motion) > stop_line_[at(lane)];
-         ++slot, ++motion) {
-        snapshot.beyond_stop_line.push_back({slot, lane, vehicles.next_lane[at(slot)]});
+        next_lane_in_slot_[at(slot)] = next_lane;
+        snapshot.placements.push_back(
+            {slot, lane, vehicle, vehicles.policy[at(slot)], next_lane, vehicles.length_m[at(slot)]});
     }
 }
 

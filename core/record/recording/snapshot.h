@@ -1,8 +1,8 @@
 // A copy of those parts of the state that a recording needs. The run continues while another thread encodes the copy.
 //
 // The copy is small, because the run must wait while the copy is made. A slot is the index of a vehicle in the arrays
-// of the simulation. The copy names the vehicle in a slot only if the slot was empty or held another vehicle in the
-// previous copy. Positions and speeds are in the units of the recording.
+// of the simulation. The copy names the vehicle in a slot only if the vehicle or its next lane is another one than in
+// the previous copy. Positions and speeds are in the units of the recording.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,8 @@ struct Snapshot {
         int past_last() const { return first + count; }
         bool operator==(const Slots&) const = default;
     };
-    // A vehicle in a slot that was empty or held another vehicle in the previous snapshot.
+    // A vehicle in a slot that was empty or held another vehicle in the previous snapshot, or a vehicle with a new next
+    // lane.
     struct Placement {
         int slot = -1;
         int lane = -1;
@@ -31,12 +32,6 @@ struct Snapshot {
         int policy = -1;
         int next_lane = -1;
         float length_m = 0.0F;
-    };
-    // A vehicle beyond the stop line of its lane.
-    struct BeyondStopLine {
-        int slot = -1;
-        int lane = -1;
-        int next_lane = -1;
     };
     struct StoppedVehicle {
         int vehicle = -1;
@@ -50,7 +45,6 @@ struct Snapshot {
     std::vector<Light> lights;  // [signal group]
     std::vector<Slots> lanes;   // [lane] slots of the lane
     std::vector<Placement> placements;
-    std::vector<BeyondStopLine> beyond_stop_line;
     // Position (low 16 bits) and speed (high 16 bits) of every vehicle, in the order of lanes and slots. The units are
     // FrameGrid::position_unit_m and kSpeedUnit_mps. The position is the distance of the front from the start of the
     // lane.
@@ -75,14 +69,12 @@ public:
 private:
     std::size_t update_lanes(const State& state, Snapshot& snapshot);
     void add_placements(const VehicleArrays& vehicles, int lane, Snapshot& snapshot);
-    void add_beyond_stop_line(const VehicleArrays& vehicles, int lane, const std::uint32_t* motion,
-                              Snapshot& snapshot) const;
 
     double positions_per_m_;
     std::vector<const LinkKind*> link_kinds_;
-    std::vector<std::uint32_t> stop_line_;  // [lane] stop line, or lane end if there is no stop line; position units
-    std::vector<Snapshot::Slots> lanes_;    // [lane] slots in the previous snapshot
-    std::vector<int> vehicle_in_slot_;      // [slot] vehicle in the slot in the previous snapshot; -1: none
+    std::vector<Snapshot::Slots> lanes_;  // [lane] slots in the previous snapshot
+    std::vector<int> vehicle_in_slot_;    // [slot] vehicle in the slot in the previous snapshot; -1: none
+    std::vector<int> next_lane_in_slot_;  // [slot] next lane of this vehicle
 };
 
 // Returns the tick of the latest update of the delay causes before `tick`, or -1 if there was no update. The simulation

@@ -35,7 +35,8 @@ HcmSampler::HcmSampler(const Scenario& scenario, const Model& model)
       sample_s_(static_cast<double>(sample_ticks_) * model.step_s),
       free_flow_share_(model.meso ? model.leader_speed_share : 1.0),
       record_of_(model.graph.lanes.size(), -1),
-      records_of_group_(at(model.graph.signal_groups)) {
+      records_of_group_(at(model.graph.signal_groups)),
+      cycles_(model) {
     for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
         const Lane& road = model.graph.lanes[at(lane)];
         const int group = road.signal_group;
@@ -65,10 +66,12 @@ HcmSampler::Track& HcmSampler::track_of(int vehicle) {
 void HcmSampler::sample(const State& state) {
     if (state.tick % sample_ticks_ != 0) return;
     note_passages(state);
+    note_teleports(state);
     for (int lane = 0; lane < static_cast<int>(state.blocks.size()); ++lane) {
         if (state.blocks[at(lane)].first < state.blocks[at(lane)].past_last()) visit_lane(state, lane);
     }
     note_lights(state);
+    cycles_.update(state);  // a red that begins together with a new cycle ends the old cycle
 }
 
 // Moves vehicles that have passed a stop line from their approach to HcmRecord::passages.
@@ -88,6 +91,19 @@ void HcmSampler::note_passages(const State& state) {
     }
 }
 
+// Counts the vehicles that a teleport has removed before their stop line.
+void HcmSampler::note_teleports(const State& state) {
+    const std::vector<RuleUse>& uses = state.congestion.delays.rule_uses;
+    for (; next_rule_use_ < uses.size(); ++next_rule_use_) {
+        const RuleUse& use = uses[next_rule_use_];
+        if (use.kind != RuleUse::Kind::teleported || record_of_[at(use.lane)] < 0) continue;
+        Track& track = track_of(use.vehicle);
+        if (track.record != record_of_[at(use.lane)]) continue;  // beyond the stop line
+        ++open_[at(track.record)].interval.teleported_veh;
+        track = {};
+    }
+}
+
 void HcmSampler::visit_lane(const State& state, int lane) {
     const VehicleArrays& v = state.vehicles;
     const LaneBlock& block = state.blocks[at(lane)];
@@ -98,7 +114,7 @@ void HcmSampler::visit_lane(const State& state, int lane) {
         Track& track = track_of(v.id[at(slot)]);
         const double speed_mps = v.speed_mps[at(slot)];
         const double free_mps = free_flow_share_ * state.plan.free_speed_mps(lane, v.policy[at(slot)]);
-        const double lost_s = sample_s_ * (1.0 - speed_mps / free_mps);
+        const double lost_s = std::max(sample_s_ * (1.0 - speed_mps / free_mps), 0.0);
         const bool is_before_line = record >= 0 && v.position_m[at(slot)] <= road.stop_line_m;
         if (track.last_record >= 0) {
             const bool slows = is_before_line && v.acceleration_mps2[at(slot)] < -kSlowing_mps2;
@@ -122,15 +138,15 @@ void HcmSampler::approach_line(Track& track, int record, double to_line_m, doubl
     if (track.last_record < 0) track.delay_s += lost_s;
     if (speed_mps > 2.0 * kQueuedSpeed_mps) track.is_slow = false;
     if (speed_mps > kQueuedSpeed_mps) return;
-    HcmCycle& cycle = open_[at(record)].cycle;
+    HcmInterval& interval = open_[at(record)].interval;
     if (!track.is_slow) ++track.stops;
-    if (!track.has_queued) ++cycle.back_veh;
+    if (!track.has_queued) ++interval.back_veh;
     track.is_slow = true;
     track.has_queued = true;
-    cycle.back_m = std::max(cycle.back_m, to_line_m + length_m);
+    interval.back_m = std::max(interval.back_m, to_line_m + length_m);
 }
 
-// Begins and ends cycles and greens.
+// Begins and ends intervals and greens.
 void HcmSampler::note_lights(const State& state) {
     if (lights_.empty()) lights_.assign(records_of_group_.size(), Light::red);
     for (std::size_t group = 0; group < records_of_group_.size(); ++group) {
@@ -138,34 +154,37 @@ void HcmSampler::note_lights(const State& state) {
         if (light == lights_[group]) continue;
         const double since_s = model_.time_s(state.signals.since_tick[group]);
         for (const int record : records_of_group_[group]) {
-            HcmCycle& cycle = open_[at(record)].cycle;
+            HcmInterval& interval = open_[at(record)].interval;
             if (light == Light::green) {
-                cycle.green_from_s = since_s;
+                interval.green_from_s = since_s;
                 records_[at(record)].green_starts_s.push_back(since_s);
             } else if (lights_[group] == Light::green) {
-                cycle.green_to_s = since_s;
-                cycle.is_used = queued_before_line(state, record) > 0;
+                interval.green_to_s = since_s;
+                interval.is_used = queued_before_line(state, record) > 0;
             }
-            if (light == Light::red) begin_cycle(state, record, since_s);
+            if (light == Light::red) begin_interval(state, record, since_s);
         }
         lights_[group] = light;
     }
 }
 
-void HcmSampler::begin_cycle(const State& state, int record, double now_s) {
-    OpenCycle& open = open_[at(record)];
+void HcmSampler::begin_interval(const State& state, int record, double now_s) {
+    OpenInterval& open = open_[at(record)];
     const int residual = queued_before_line(state, record);
-    open.cycle.to_s = now_s;
-    open.cycle.residual_veh = residual;
-    open.cycle.present_veh = present_before_line(state, record);
-    const bool has_green = open.cycle.green_to_s > open.cycle.green_from_s && open.cycle.green_from_s >= 0.0;
-    if (open.has_begun && has_green) records_[at(record)].cycles.push_back(open.cycle);
-    const int present = open.cycle.present_veh;
+    HcmInterval& ended = open.interval;
+    ended.to_s = now_s;
+    ended.residual_veh = residual;
+    ended.present_veh = present_before_line(state, record);
+    ended.cycle = cycles_.number(model_.graph.lanes[at(records_[at(record)].lane)].signal_group);
+    const bool has_green = ended.green_to_s > ended.green_from_s && ended.green_from_s >= 0.0;
+    if (!open.has_begun) records_[at(record)].first_cycle = ended.cycle;
+    if (open.has_begun && has_green) records_[at(record)].intervals.push_back(ended);
+    const int present = ended.present_veh;
     open = {true, {}};
-    open.cycle.from_s = now_s;
-    open.cycle.residual_before_veh = residual;
-    open.cycle.present_before_veh = present;
-    open.cycle.back_veh = residual;
+    open.interval.from_s = now_s;
+    open.interval.residual_before_veh = residual;
+    open.interval.present_before_veh = present;
+    open.interval.back_veh = residual;
 }
 
 // Returns the number of vehicles before the stop line that have stood in the queue.

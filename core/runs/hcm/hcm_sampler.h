@@ -1,11 +1,12 @@
-// Records the cycles, passages, delays and queues of all lanes with a signal during a run, for the report by the
-// Highway Capacity Manual (measure/hcm.h). Exists only in runs with `measure.hcm: on`.
+// Records the intervals of red and green, passages, delays and queues of all lanes with a signal during a run, for the
+// report by the Highway Capacity Manual (measure/hcm.h). Exists only in runs with `measure.hcm: on`.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "measure/hcm.h"
+#include "runs/hcm/signal_cycles.h"
 #include "scenario/scenario.h"
 #include "sim/state/model.h"
 #include "sim/state/state.h"
@@ -37,15 +38,16 @@ private:
         bool is_slow = false;  // slower than kQueuedSpeed_mps, and since then not faster than twice this speed
         bool has_queued = false;
     };
-    // The cycle of a lane that has not ended yet.
-    struct OpenCycle {
+    // The interval of a lane that has not ended yet.
+    struct OpenInterval {
         bool has_begun = false;
-        HcmCycle cycle;
+        HcmInterval interval;
     };
 
     void note_lights(const State& state);
     void note_passages(const State& state);
-    void begin_cycle(const State& state, int record, double now_s);
+    void note_teleports(const State& state);
+    void begin_interval(const State& state, int record, double now_s);
     void visit_lane(const State& state, int lane);
     void approach_line(Track& track, int record, double to_line_m, double speed_mps, double lost_s, double length_m);
     int queued_before_line(const State& state, int record) const;
@@ -57,12 +59,14 @@ private:
     double sample_s_;
     double free_flow_share_;  // free-flow speed as a share of the speed limit
     std::vector<HcmRecord> records_;
-    std::vector<OpenCycle> open_;                     // [record]
+    std::vector<OpenInterval> open_;                  // [record]
     std::vector<int> record_of_;                      // [lane] index in records_; -1: no stop line
     std::vector<std::vector<int>> records_of_group_;  // [signal group]
     std::vector<Light> lights_;                       // [signal group] at the last sample
-    std::vector<Track> tracks_;                       // [vehicle]
+    SignalCycles cycles_;
+    std::vector<Track> tracks_;  // [vehicle]
     std::size_t next_crossing_ = 0;
+    std::size_t next_rule_use_ = 0;
 };
 
 }  // namespace stopline

@@ -1,5 +1,6 @@
 // Deadlocks of a single intersection: a vehicle stays inside the intersection for two signal cycles longer than the
-// slowest unobstructed crossing takes.
+// slowest unobstructed crossing takes, and at least for kMinDeadlock_s longer. If the controller reacts to traffic, the
+// longest possible cycle counts.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +13,9 @@
 #include "sim/step/simulation.h"
 
 namespace stopline {
+
+// In shorter stays, a vehicle can still be moving with the queue ahead of it.
+inline constexpr double kMinDeadlock_s = 30.0;
 
 // A vehicle of a deadlock, and what it waits for.
 struct DeadlockMember {

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <optional>
+#include <vector>
 
 #include "base/containers/index.h"
 #include "base/speed_thresholds.h"
@@ -11,6 +13,7 @@
 #include "runs/hcm/hcm_sampler.h"
 #include "scenario/build_model.h"
 #include "scenario/fleets.h"
+#include "signals/signal_controller.h"
 #include "sim/insertion/insert_vehicles.h"
 
 namespace stopline {
@@ -201,9 +204,37 @@ double slowest_crossing_s(const Model& model) {
     return slowest_s;
 }
 
+// Returns the sum of the phases that follow one another if each green lasts as long as possible, s. Phases of several
+// rings run at the same time, from barrier to barrier.
+double longest_cycle_s(const std::vector<PhaseSettings>& phases) {
+    std::map<int, std::map<int, double>> rings_s;  // [barrier][ring]
+    for (const PhaseSettings& phase : phases) {
+        rings_s[phase.barrier][phase.ring] += phase.longest_green_s() + phase.yellow_s + phase.all_red_s;
+    }
+    double sum_s = 0.0;
+    for (const auto& [barrier, ring_s] : rings_s) {
+        double longest_s = 0.0;
+        for (const auto& [ring, phases_s] : ring_s) longest_s = std::max(longest_s, phases_s);
+        sum_s += longest_s;
+    }
+    return sum_s;
+}
+
+// Returns the longest possible cycle of the signal, s. A controller that reacts to traffic can extend each green up to
+// its max_green.
+double longest_cycle_s(const Scenario& scenario) {
+    double longest_s = cycle_of(scenario);
+    if (find_signal_controller(scenario.signal.controller).follows_programme) return longest_s;
+    longest_s = std::max(longest_s, longest_cycle_s(scenario.signal.phases));
+    for (const ProgrammeSettings& programme : scenario.signal.programmes) {
+        longest_s = std::max(longest_s, longest_cycle_s(programme.phases));
+    }
+    return longest_s;
+}
+
 // Returns the shortest stay in the intersection that counts as a deadlock, s.
 double deadlock_limit_s(const Scenario& scenario, const Model& model) {
-    return 2.0 * cycle_of(scenario) + slowest_crossing_s(model);
+    return std::max(2.0 * longest_cycle_s(scenario), kMinDeadlock_s) + slowest_crossing_s(model);
 }
 
 }  // namespace

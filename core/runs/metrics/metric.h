@@ -79,6 +79,8 @@ struct ConsoleColumn {
     // A value for the console that differs from Metric::value, and its unit. Empty: those of the metric.
     std::function<MetricValue(const Run&)> value;
     std::string_view unit = {};
+    // Returns true for scenarios whose console tables have the column. Null: all scenarios that have the metric.
+    bool (*asked_for)(const Scenario& scenario) = nullptr;
 
     bool is_in(ConsoleTable wanted) const { return !heading.empty() && table == wanted; }
 };

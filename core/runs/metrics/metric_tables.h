@@ -149,7 +149,10 @@ std::vector<std::string> sweep_column_names(const MetricList<Run>& metrics, cons
 
 template <class Run>
 MetricColumns<Run> console_columns(const MetricList<Run>& metrics, const Scenario& scenario, ConsoleTable table) {
-    return metric_columns(metrics, &scenario, [&](const Metric<Run>& metric) { return metric.console.is_in(table); });
+    return metric_columns(metrics, &scenario, [&](const Metric<Run>& metric) {
+        const bool is_asked_for = metric.console.asked_for == nullptr || metric.console.asked_for(scenario);
+        return metric.console.is_in(table) && is_asked_for;
+    });
 }
 
 // Returns the rows of a console table: headings, units, and one row for each run.

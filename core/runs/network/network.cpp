@@ -9,6 +9,7 @@
 #include "base/io/csv.h"
 #include "base/nan.h"
 #include "base/units.h"
+#include "measure/steady_state.h"
 #include "runs/metrics/metric_tables.h"
 #include "runs/network/network_metrics.h"
 #include "runs/parallel_runs.h"
@@ -86,6 +87,32 @@ NetworkReport run_networks(const Scenario& scenario, const NetworkOptions& optio
     return report;
 }
 
+namespace {
+
+// Returns why the measured window begins where it does, for runs that are not longer than measure.window. `first`: the
+// measured window of the first population.
+std::string warm_up_text(const NetworkReport& report, const TimeWindow& first) {
+    const MeasureSettings& measure = report.scenario.measure;
+    std::string text = fmt::format(" measure.window is {:g} s, but the run lasts {:g} s: ", measure.window_s,
+                                   report.scenario.duration_s);
+    if (report.populations[0].series.size() < kMinWarmUpValues) {
+        return text + fmt::format(
+                          "it is measured from its start. The run is too short to find the end of its warm-up; this "
+                          "takes at least {:g} min ({} times measure.interval). Increase 'duration' or reduce "
+                          "measure.window.",
+                          static_cast<double>(kMinWarmUpValues) * measure.interval_s / 60.0, kMinWarmUpValues);
+    }
+    text += "each population is measured from the end of its warm-up";
+    const auto same = [&](const NetworkResult& f) { return f.measured.window.from_s == first.from_s; };
+    if (!std::all_of(report.populations.begin(), report.populations.end(), same)) {
+        text += fmt::format("; these times are those of {}, the others are in summary.csv (window_from_s)",
+                            report.populations[0].population);
+    }
+    return text + ".";
+}
+
+}  // namespace
+
 std::string window_text(const NetworkReport& report) {
     const MeasureSettings& measure = report.scenario.measure;
     const double end_s = report.scenario.duration_s;
@@ -99,16 +126,7 @@ std::string window_text(const NetworkReport& report) {
     }
     std::string text = fmt::format("Measured from {:.0f} to {:.0f} s.", first.from_s, first.to_s);
     if (target_from_s <= 0.0) {
-        text += fmt::format(
-            " measure.window is {:g} s, but the run lasts {:g} s: each population is measured from the end of its "
-            "warm-up",
-            measure.window_s, end_s);
-        const auto same = [&](const NetworkResult& f) { return f.measured.window.from_s == first.from_s; };
-        if (!std::all_of(report.populations.begin(), report.populations.end(), same)) {
-            text += fmt::format("; these times are those of {}, the others are in summary.csv (window_from_s)",
-                                report.populations[0].population);
-        }
-        text += ".";
+        text += warm_up_text(report, first);
     } else if (first.from_s != target_from_s || first.to_s != end_s) {
         text += fmt::format(
             " measure.window gives {:g} to {:g} s; only whole intervals of {:g} s (measure.interval) are measured.",

@@ -74,6 +74,8 @@ double blocking_share_percent(const MeasuredNetwork& run) {
     return total_s > 0.0 ? 100.0 * delay_s[kFirstBlocking + run.key] / total_s : 0.0;
 }
 
+bool uses_clearing(const Scenario& scenario) { return scenario.rules.clearing == "cooperative"; }
+
 std::string stability_text(const NetworkResult& result) {
     const double since_s = result.collapse_s.value_or(0.0);
     const std::string stability = kStabilityNames[static_cast<std::size_t>(result.stability)];
@@ -214,7 +216,8 @@ MetricList<MeasuredNetwork> window_metrics() {
         {.column = "warm_up_s",
          .unit = "s",
          .extent = "run",
-         .meaning = "end of the warm-up, found from the number of vehicles in the area with the rule MSER-5",
+         .meaning = "end of the warm-up, found from the number of vehicles in the area with the rule MSER-5. 0 if it "
+                    "cannot be found because the run has fewer than 15 intervals (`measure.interval`)",
          .value = [](const MeasuredNetwork& run) { return run.result.warm_up_s; },
          .sweep_decimals = 1,
          .has_mean = false},
@@ -230,7 +233,8 @@ MetricList<MeasuredNetwork> stability_metrics() {
          .value =
              [](const MeasuredNetwork& run) { return kStabilityNames[static_cast<std::size_t>(run.result.stability)]; },
          .console = {.heading = "stability",
-                     .note = "of the whole run",
+                     .note = "of the whole run. semi-stable: gridlocks or teleported vehicles, but all gridlocks "
+                             "dissolve, and less than 1 % of the vehicles that left were teleported",
                      .value = [](const MeasuredNetwork& run) { return stability_text(run.result); }}},
         {.column = "unstable_by",
          .extent = "run",
@@ -300,7 +304,12 @@ MetricList<MeasuredNetwork> gridlock_metrics() {
          .extent = "run",
          .meaning = "number of times that cooperative clearing (`rules.clearing`) begins to hold a vehicle at its stop "
                     "line",
-         .value = [](const MeasuredNetwork& run) { return run.result.delays.refused; }},
+         .value = [](const MeasuredNetwork& run) { return run.result.delays.refused; },
+         .console = {.table = ConsoleTable::congestion,
+                     .heading = "refused",
+                     .note = "times that rules.clearing began to hold a vehicle at its stop line (delay: "
+                             "delay_refusal_h in summary.csv)",
+                     .asked_for = uses_clearing}},
         {.column = "refused_stop_h",
          .unit = "veh h",
          .extent = "run",

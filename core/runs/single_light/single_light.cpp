@@ -61,10 +61,18 @@ SteadyFlow steady_flow(const Scenario& scenario, const PopulationSettings& popul
     return flow;
 }
 
-QueueGaps queue_gaps(const std::vector<double>& gaps_m) {
-    if (gaps_m.empty()) return {kNan, kNan, kNan};
+QueueGaps queue_gaps(const std::vector<QueueGap>& gaps) {
+    constexpr double kTolerance_m = 1.0;
+    std::vector<double> gaps_m;
+    double largest_open_m = kNan;
+    for (const QueueGap& gap : gaps) {
+        gaps_m.push_back(gap.net_gap_m);
+        if (gap.net_gap_m > gap.standstill_gap_m + kTolerance_m)
+            largest_open_m = std::fmax(largest_open_m, gap.net_gap_m);  // ignores NaN
+    }
+    if (gaps_m.empty()) return {kNan, kNan, kNan, kNan};
     const auto [smallest, largest] = std::minmax_element(gaps_m.begin(), gaps_m.end());
-    return {mean(gaps_m), *smallest, *largest};
+    return {mean(gaps_m), *smallest, *largest, largest_open_m};
 }
 
 // Returns the points downstream of the stop line. Vehicles that arrive after the queue has left can also drive at the
@@ -160,7 +168,7 @@ PopulationSummary summary_of(const Scenario& scenario, std::size_t index, const 
     const ApproachSettings& road = scenario.network.approach;
     summary.steady = steady_flow(scenario, population, downstream_points(points, road.length_m), interval_s);
     summary.leader = leader_of(scenario, summary.line, points, run.green_start_s);
-    summary.queue = queue_gaps(run.queue_gaps_m);
+    summary.queue = queue_gaps(run.queue_gaps);
     summary.ideal = ideal_counter(scenario, population, points, run.green_start_s);
     summary.stability = {kNan, kNan, kNan, kNan};
     if (scenario.measure.string_stability == "on") {

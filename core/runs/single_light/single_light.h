@@ -32,10 +32,13 @@ struct SteadyFlow {
 // is the speed limit. In the mesoscale mode, it is the speed limit times calibrated factors.
 double cruise_speed_mps(const Scenario& scenario);
 
+// Net gaps in a queue. All are NaN without followers. A vehicle has closed up if its net gap exceeds its own standstill
+// gap by 1 m or less.
 struct QueueGaps {
     double mean_m = 0.0;
     double smallest_m = 0.0;
     double largest_m = 0.0;
+    double largest_open_m = 0.0;  // largest gap of the vehicles that have not closed up; NaN: all have
 };
 
 // Growth of accelerations along the queue after the start of green, for the vehicles that pass the stop line within the

@@ -8,9 +8,10 @@ std::vector<ColumnDoc> hcm_columns() {
         kPopulationColumn,
         {"scope", "", "", "`lane`, `approach` or `intersection`. Columns without a meaning for the last two are empty"},
         {"name", "", "", "name of the lane or approach, or number of the intersection from 0"},
-        {"cycles", "", "window", "number of whole cycles, from start of red to start of red; all values cover them"},
+        {"cycles", "", "window",
+         "number of whole cycles of the signal, from start of red to start of red; all values cover them"},
         {"cycle_s", "s", "window", "mean length of these cycles"},
-        {"green_s", "s", "window", "mean green"},
+        {"green_s", "s", "window", "mean green time in a cycle: the sum, if the lane has several greens in a cycle"},
         {"saturated_greens", "", "window",
          "greens in which five or more vehicles of a queue pass. Below 5 greens, saturation flow and lost time are "
          "means of all lanes"},
@@ -19,7 +20,7 @@ std::vector<ColumnDoc> hcm_columns() {
         {"end_gain_s", "s", "window",
          "mean time from the end of green to the passage of the last queued vehicle, in greens in which the queue does not clear; below 5 such "
          "greens the mean of all lanes, or 2 s if all lanes have fewer than 5"},
-        {"effective_green_s", "s", "window", "green minus start-up lost time plus end gain"},
+        {"effective_green_s", "s", "window", "green minus start-up lost time plus end gain, for each green of a cycle"},
         {"capacity_veh_h", "veh/h", "window", "saturation flow times effective green, divided by the cycle"},
         {"volume_veh_h", "veh/h", "window",
          "vehicles that arrive: `passed_veh_h` plus the growth of the number of vehicles before the stop line. "
@@ -28,7 +29,10 @@ std::vector<ColumnDoc> hcm_columns() {
         {"degree_of_saturation", "", "window",
          "`volume_veh_h` divided by `capacity_veh_h`; approach and intersection: the highest of their lanes"},
         {"control_delay_s", "s", "window", "measured mean control delay of the vehicles that pass"},
-        {"formula_delay_s", "s", "window", "control delay by the formula: sum of the next three columns"},
+        {"formula_delay_s", "s", "window",
+         "control delay by the formula: sum of the next three columns. These columns, `formula_queue_50_veh`, "
+         "`formula_queue_95_veh` and `formula_level_of_service` are empty for a lane with several greens in a cycle, "
+         "because the formulas assume a single one, and for the approach and the intersection of such a lane"},
         {"uniform_delay_s", "s", "window", "uniform delay d1"},
         {"incremental_delay_s", "s", "window", "incremental delay d2 for random arrivals, over the measured time"},
         {"initial_queue_delay_s", "s", "window", "delay d3 from the queue that stands before the first cycle"},
@@ -36,7 +40,8 @@ std::vector<ColumnDoc> hcm_columns() {
          "mean number of stops before the stop line. A vehicle stops when its speed falls below 5 km/h; it can stop "
          "again after 10 km/h"},
         {"queue_50_veh", "veh", "window",
-         "median over the cycles of the back of queue: the queue at the start of red, and the vehicles that join it"},
+         "median over the cycles of the back of queue: the queue at the start of red, and the vehicles that join it. "
+         "With several greens in a cycle, the longest of their queues"},
         {"queue_95_veh", "veh", "window", "95th percentile of the same"},
         {"formula_queue_50_veh", "veh", "window", "mean back of queue by the formula"},
         {"formula_queue_95_veh", "veh", "window", "95th percentile of the back of queue by the formula"},

@@ -25,6 +25,23 @@ grep -qF "bytes per vehicle and frame" "$work/table" || fail "the size per vehic
 for population in CDG MIX CTG-Ref; do
     cmp "$work/a.$population.rec" "$work/b.$population.rec" || fail "$population: the bytes depend on the number of threads"
 done
+
+# same_bytes NAME THREADS RUN_ARGUMENT...: expects that a recording has the same bytes on one and on several threads
+same_bytes() {
+    local name=$1 threads=$2
+    shift 2
+    for count in 1 "$threads"; do
+        "$run" "$@" --set 'populations=[CDG]' --set measure.baseline=CDG --no-figures --output "$work/out" \
+            --threads "$count" --record "$work/$name.$count.rec" >"$work/table" || fail "$name on $count threads: exit code $?"
+    done
+    cmp "$work/$name.1.rec" "$work/$name.$threads.rec" || fail "$name: the bytes depend on the number of threads"
+}
+same_bytes grid 3 "$STOPLINE_SOURCE/scenarios/grid.yaml" --set "duration=300 s" --set "measure.window=100 s"
+same_bytes grid_full 2 "$STOPLINE_SOURCE/scenarios/grid.yaml" --set "fidelity=full" --set "duration=120 s" \
+    --set "measure.window=60 s"
+same_bytes streets 3 "$STOPLINE_SOURCE/scenarios/berlin.yaml" --set "duration=300 s" --set "measure.window=100 s" \
+    --set "driver.lane_change.gap_opening=cooperative"
+
 "$run" "$STOPLINE_SOURCE/scenarios/first_steps.yaml" --set 'populations=[CDG]' --set measure.baseline=CDG --no-figures \
     --output "$work/out" --record "$work/light.rec" >"$work/table" || fail "single light: exit code $?"
 "$replay" "$work/light.rec" >"$work/table" || fail "page of a single light: exit code $?"
@@ -47,7 +64,9 @@ head -c 3000 "$work/a.CDG.rec" >"$work/short.rec"
 refused "short.rec: the file is not a readable recording: the file ends too early" "$replay" "$work/short.rec"
 head -c 20000 "$work/a.CDG.rec" >"$work/longer.rec"
 refused "longer.rec: the recording is damaged after" "$replay" "$work/longer.rec"
-refused "no frame from 9000" "$replay" "$work/a.CDG.rec" --from "9000 s"
+refused "no frame from 9000 s on; it covers 0 to " "$replay" "$work/a.CDG.rec" --from "9000 s"
+refused "no frame from 9000 s to 9001 s; it covers 0 to " "$replay" "$work/a.CDG.rec" --from "9000 s" --until "9001 s"
+refused "value '9000' has no unit: write e.g. '9000 s'" "$replay" "$work/a.CDG.rec" --from 9000
 [ -e "$work/short.html" ] && fail "there is a page of an incomplete recording"
 [ -e /dev/full ] && refused "No space left on device" "$replay" "$work/a.CDG.rec" --output /dev/full
 

@@ -80,6 +80,16 @@ if command -v gnuplot >"$work/stdout"; then
     [ -s "$work/arterial/delay_causes.svg" ] || fail "delay_causes.svg is missing"
 fi
 
+# The hint to the mesoscale mode names the parameters that were fitted to full dynamics, unless others are chosen.
+hint_of() {
+    "$run" "$STOPLINE_SOURCE/scenarios/berlin.yaml" --set fidelity=full --set 'populations=[CDG]' --set duration="10 s" \
+        --set measure.time_space="0 s" --set measure.window="10 s" --set measure.baseline=none --no-figures \
+        --output "$work/hint" "$@" 2>&1 | grep "another fidelity"
+}
+[ "$(hint_of --set meso=table2)" = "  another fidelity: add --set fidelity=meso --set meso=passages" ] ||
+    fail "hint: $(hint_of --set meso=table2)"
+[ "$(hint_of --set meso=fitted)" = "  another fidelity: add --set fidelity=meso" ] || fail "hint: $(hint_of --set meso=fitted)"
+
 touch "$work/file"
 cannot_write "Not a directory" "$work/file/below"
 cannot_write "Not a directory" "$work/file"

@@ -84,4 +84,25 @@ grep -qF "SUMO was stopped after 1 s of wall-clock time. It had simulated 12 of 
 refused "wrong limit" "${slow[@]}" --sumo-limit "1" --output "$work/new"
 grep -qF -- "--sumo-limit" "$work/stderr" || fail "wrong limit: $(head -c 300 "$work/stderr")"
 
+# Another program in place of SUMO reports trips without departure delay. Our vehicles have none either.
+cat >"$work/bin/sumo" <<'END'
+#!/bin/sh
+[ "$1" = --version ] && exit 0
+echo '<tripinfos><tripinfo id="a" arrival="30.00" duration="29.70" departDelay="0.00"/></tripinfos>' >trips.out.xml
+echo '<instantE1></instantE1>' >detectors.out.xml
+echo '<summary><step time="10.00" running="1" waiting="0" halting="0" meanSpeed="5.00" teleports="0"/></summary>' >summary.out.xml
+END
+{
+    echo '<routes>'
+    for depart in 0.3 2.7 5.1 7.3 9.9 12.7; do
+        echo "<trip id=\"t$depart\" depart=\"$depart\" from=\"ni\" to=\"so\" departSpeed=\"max\"/>"
+    done
+    echo '</routes>'
+} >"$work/few.rou.xml"
+sed "s#$data/left_turns.rou.xml#$work/few.rou.xml#; s/60 s/120 s/" "$work/slow.yaml" >"$work/few.yaml"
+env "PATH=$work/bin:$PATH" "$compare" "$work/few.yaml" --no-figures --output "$work/few" >"$work/stdout" 2>"$work/stderr" ||
+    fail "no departure delay: $(head -c 300 "$work/stderr")"
+grep -qE '^ *departure_delay_s +0\.00 +0\.00 +- +0\.00 \.\. 0\.00 +yes +0\.00 \.\. 0\.00 +yes *$' "$work/stdout" ||
+    fail "no departure delay: $(grep departure_delay_s "$work/stdout")"
+
 exit $((failures > 0))

@@ -109,6 +109,64 @@ TEST(HcmRun, DoesNotChangeTheRun) {
     EXPECT_EQ(std::count(off.begin(), off.end(), "hcm_los"), 0);
 }
 
+// Left turns have a protected green and a permissive one, with a red between them. Their cycle is that of the signal.
+TEST(HcmRun, LanesWithTwoGreensHaveTheCycleOfTheSignal) {
+    const IntersectionResult result = run_intersection(
+        load_scenario(STOPLINE_SOURCE_DIR "/scenarios/dual_ring.yaml", {"measure.hcm=on", "measure.cycles=20"}), 0);
+    int lanes_with_two_greens = 0;
+    for (const HcmRow& row : result.hcm) {
+        if (row.scope != HcmRow::Scope::lane) continue;
+        EXPECT_NEAR(row.cycle_s, 90.0, 1.0) << row.name;
+        EXPECT_GE(row.cycles, 18) << row.name;
+        EXPECT_LE(row.cycles, 20) << row.name;
+        const bool is_left = row.name.ends_with("_0");
+        EXPECT_EQ(row.greens_per_cycle > 1.0, is_left) << row.name;
+        EXPECT_EQ(std::isnan(row.formula_delay_s()), is_left) << row.name;
+        lanes_with_two_greens += is_left ? 1 : 0;
+    }
+    EXPECT_EQ(lanes_with_two_greens, 4);
+}
+
+// A fixed-time programme of 90 s with two separate greens of the left turns.
+TEST(HcmRun, FixedTimeLanesWithTwoGreensHaveTheCycleOfTheSignal) {
+    const std::string network =
+        "network: {kind: intersection, intersection: {lanes: [{movements: left}, {movements: straight+right}]}}, ";
+    const std::string signal =
+        "signal: {first_green: 1 s, phases: [{protected: [west_left, east_left], green: 8 s, yellow: 3 s, all_red: 2 s}, "
+        "{protected: [south_straight, south_right, north_straight, north_right], permissive: [south_left, north_left], "
+        "green: 25 s, yellow: 3 s, all_red: 2 s}, "
+        "{protected: [west_straight, west_right, east_straight, east_right], permissive: [west_left, east_left], "
+        "green: 32 s, yellow: 3 s, all_red: 2 s}, {green: 8 s, yellow: 0 s, all_red: 2 s}]}, ";
+    const IntersectionResult result =
+        run_intersection(hcm_scenario(network + signal + "measure: {warmup_cycles: 1, cycles: 8, hcm: on}, " +
+                                      "demand: {kind: saturated, start: queued}"),
+                         0);
+    for (const HcmRow& row : result.hcm) {
+        if (row.scope != HcmRow::Scope::lane) continue;
+        EXPECT_NEAR(row.cycle_s, 90.0, 1e-6) << row.name;
+        const bool has_two_greens = row.name == "west_in_0" || row.name == "east_in_0";
+        EXPECT_DOUBLE_EQ(row.greens_per_cycle, has_two_greens ? 2.0 : 1.0) << row.name;
+        if (has_two_greens) {
+            EXPECT_NEAR(row.green_s, 40.0, 1e-6) << row.name;
+        }
+    }
+}
+
+// The programme of Kantstraße gives green to the left turns of the major street twice in a cycle.
+TEST(HcmRun, StreetLanesWithTwoGreensHaveTheCycleOfTheSignal) {
+    const NetworkResult result =
+        run_network(load_scenario(STOPLINE_SOURCE_DIR "/scenarios/berlin.yaml",
+                                  {"measure.hcm=on", "duration=420 s", "measure.window=300 s"}),
+                    0);
+    int lanes_with_two_greens = 0;
+    for (const HcmRow& row : result.hcm) {
+        if (row.scope != HcmRow::Scope::lane) continue;
+        EXPECT_NEAR(row.cycle_s, 60.0, 1e-6) << row.name;
+        lanes_with_two_greens += row.greens_per_cycle > 1.0 ? 1 : 0;
+    }
+    EXPECT_GT(lanes_with_two_greens, 0);
+}
+
 TEST(HcmRun, CoversTheLanesOfNetworksAndActuatedSignals) {
     const Scenario scenario = hcm_scenario(
         "network: {kind: grid, grid: {columns: 2, rows: 1}}, signal: {first_green: 1 s, controller: actuated, phases: "
@@ -130,6 +188,23 @@ TEST(HcmRun, CoversTheLanesOfNetworksAndActuatedSignals) {
         EXPECT_NE(row.level, '-') << row.name;
     }
     EXPECT_EQ(intersections, 2);
+}
+
+// In each cycle of 16 s, one or two vehicles pass, and one or two are teleported. Others take their places.
+TEST(HcmRun, TeleportedVehiclesCountAsArrivals) {
+    const NetworkResult result = run_network(
+        hcm_scenario(
+            "network: {kind: grid, intersection: {lanes: [{movements: straight}]}, grid: {columns: 2, rows: 1}}, "
+            "signal: {first_green: 1 s, green: 2 s, yellow: 3 s, all_red: 3 s}, demand: {kind: saturated}, "
+            "rules: {teleport_cycles: 0.1}, duration: 300 s, measure: {window: 200 s, hcm: on}"),
+        0);
+    int lanes = 0;
+    for (const HcmRow& row : result.hcm) {
+        if (row.scope != HcmRow::Scope::lane) continue;
+        ++lanes;
+        EXPECT_GT(row.volume_veh_h, 1.5 * row.passed_veh_h) << row.name;
+    }
+    EXPECT_EQ(lanes, 8);
 }
 
 }  // namespace

@@ -37,8 +37,8 @@ TEST(Deadlock, NamesTheVehiclesThatWaitForEachOther) {
     EXPECT_FALSE(report.no_violations());
     ASSERT_TRUE(result.deadlock);
     const Deadlock& deadlock = *result.deadlock;
-    // Two cycles of 12 s, and the crossing at 2 m/s.
-    EXPECT_GT(deadlock.to_s - deadlock.from_s, 24.0 + 24.0 / 2.0);
+    // Two cycles of 12 s are shorter than kMinDeadlock_s. Added is the crossing at 2 m/s.
+    EXPECT_GT(deadlock.to_s - deadlock.from_s, kMinDeadlock_s + 24.0 / 2.0);
     EXPECT_LE(deadlock.to_s - deadlock.from_s, result.longest_in_junction_s + 1e-9);
     ASSERT_GE(deadlock.members.size(), 2U);
     EXPECT_EQ(deadlock.members[0].vehicle, deadlock.vehicle);
@@ -67,6 +67,31 @@ TEST(Deadlock, IsAbsentWithTimeToClearTheIntersection) {
     const IntersectionReport report = run_intersections(scenario, {});
     EXPECT_FALSE(report.populations[0].deadlock);
     EXPECT_TRUE(report.no_violations());
+}
+
+// A permissive left-turning vehicle waits inside the intersection while oncoming traffic extends the green. The nominal
+// cycle is 36 s, the longest one 126 s.
+TEST(Deadlock, WaitingInALongGreenIsNone) {
+    const IntersectionReport report = run_intersections(parse_scenario(R"(
+fidelity: meso
+network: {kind: intersection, intersection: {lanes: [{movements: left}, {movements: straight+right}]}}
+signal:
+  controller: actuated
+  first_green: 1 s
+  phases:
+  - {protected: [west_straight, east_straight, west_right, east_right], permissive: [west_left, east_left],
+     green: 10 s, max_green: 90 s}
+  - {protected: [south_straight, north_straight, south_right, north_right], permissive: [south_left, north_left],
+     green: 10 s, max_green: 20 s}
+demand: {kind: saturated, cross_inflow: 300 veh/h}
+populations: [CTG-Ref]
+measure: {warmup_cycles: 0, cycles: 10}
+)",
+                                                                       "test.yaml"),
+                                                        {});
+    const IntersectionResult& result = report.populations[0];
+    EXPECT_GT(result.longest_in_junction_s, 2.0 * 36.0 + 10.0);
+    EXPECT_EQ(result.violations.deadlocks, 0);
 }
 
 }  // namespace

@@ -216,7 +216,7 @@ TEST(SumoRun, VehicleAtTheEndOfItsTripSeesAVehicleStillReachingBack) {
     while (state.blocks[static_cast<std::size_t>(lane_named(":J_1_0"))].count == 0) simulation.step();
     const int lane = lane_named("w_in_0");
     const int approach = model.graph.lanes[static_cast<std::size_t>(lane)].approach;
-    const LeaderAhead ahead = leader_ahead(state, lane, 180.0, state.plan.route_with(approach, Turn::none), 0, 100.0);
+    const LeaderAhead ahead = leader_ahead(state, lane, 180.0, {state.plan.route_with(approach, Turn::none)}, 100.0);
     EXPECT_EQ(ahead.slot, state.blocks[static_cast<std::size_t>(lane_named(":J_1_0"))].first);
     EXPECT_NEAR(ahead.lane_start_m, 190.0, 0.01);
 }
@@ -249,12 +249,16 @@ TEST(SumoRun, ReportsTheMeasuredWindow) {
     EXPECT_EQ(window(260.0, 160.0),
               "Measured from 120 to 240 s. measure.window gives 100 to 260 s; only whole intervals of 60 s "
               "(measure.interval) are measured.");
-    const std::string too_long = window(240.0, 500.0);
-    EXPECT_NE(
-        too_long.find("to 240 s. measure.window is 500 s, but the run lasts 240 s: each population is measured from "
-                      "the end of its warm-up"),
-        std::string::npos)
-        << too_long;
+    EXPECT_EQ(window(240.0, 500.0),
+              "Measured from 0 to 240 s. measure.window is 500 s, but the run lasts 240 s: it is measured from its "
+              "start. The run is too short to find the end of its warm-up; this takes at least 15 min (15 times "
+              "measure.interval). Increase 'duration' or reduce measure.window.");
+    EXPECT_NE(window(890.0, 1000.0).find("too short to find the end of its warm-up"), std::string::npos);
+    const std::string long_run = window(900.0, 1000.0);
+    EXPECT_NE(long_run.find("to 900 s. measure.window is 1000 s, but the run lasts 900 s: each population is measured "
+                            "from the end of its warm-up."),
+              std::string::npos)
+        << long_run;
     EXPECT_EQ(window(240.0, 30.0),
               "Nothing is measured: the last 30 s of the run contain no whole interval of 60 s (measure.interval).");
 }
