@@ -17,6 +17,7 @@
 #include "base/io/command_files.h"
 #include "base/io/data_directory.h"
 #include "base/io/output.h"
+#include "calibrate/calibration_text.h"
 #include "calibration/calibration.h"
 #include "calibration/leader_profile.h"
 #include "common/command_line.h"
@@ -24,7 +25,6 @@
 #include "common/program.h"
 #include "common/progress_bar.h"
 #include "common/results.h"
-#include "common/text_table.h"
 #include "figures/studies/calibration_figures.h"
 #include "runs/program_identity.h"
 #include "runs/tables/column_aliases.h"
@@ -112,12 +112,16 @@ RunStore open_store(const std::filesystem::path& file, const std::string& name, 
     return RunStore::open_or_make(file, identity);
 }
 
-// Loads parameters of the mesoscale mode and prints the warnings that loading returns.
-MesoSettings load_meso_file(const std::string& name_or_path) {
+// Loads the parameters of the mesoscale mode that an option names, and prints the warnings that loading returns.
+MesoSettings load_meso_file(const char* option, const std::string& name_or_path) {
     std::vector<std::string> warnings;
-    MesoSettings settings = load_meso(name_or_path, ".", &warnings);
-    print_warnings(warnings);
-    return settings;
+    try {
+        MesoSettings settings = load_meso(name_or_path, ".", &warnings);
+        print_warnings(warnings);
+        return settings;
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("{} {}", option, error.what()));
+    }
 }
 
 // One sweep of the calibration, with all its results.
@@ -213,45 +217,6 @@ MesoFit run_fit(const CalibrateCliOptions& options, const std::vector<Calibratio
     return fit_meso(fit_cases, start, fit);
 }
 
-std::string percent(double share) { return fmt::format("{:.1f} %", 100.0 * share); }
-
-void print_timing(const std::vector<TimingResult>& results, const std::vector<CalibrationCase>& cases,
-                  const AcceptedFile& accepted) {
-    TextTable table("llr");
-    table.add_row({"parameters", "permutations", "pairs", "within 1 s", "or accepted", "median", "95th percentile",
-                   "other green", "unpaired"});
-    for (const TimingResult& result : results) {
-        const std::vector<TimingMiss> misses = timing_misses(result, cases, accepted);
-        for (const auto& [chosen, name] :
-             {std::pair{CaseSubset::fitted, "in the fit"}, {CaseSubset::held_out, "held out"}}) {
-            const Agreement a = timing_agreement(result, cases, chosen);
-            table.add_row({result.name, name, fmt::format("{}", a.pairs), percent(a.within_share),
-                           percent(valid_share(result, cases, misses, chosen)), fmt::format("{:.2f} s", a.median_s),
-                           fmt::format("{:.2f} s", a.p95_s), fmt::format("{}", a.other_green),
-                           fmt::format("{}", a.unpaired)});
-        }
-    }
-    fmt::print(
-        "\nStep I: time difference of the k-th passage at a detector between the two fidelities (limit {} s)\n{}",
-        kTimingLimit_s, table.text());
-}
-
-void print_parameters(const std::vector<TimingResult>& results) {
-    TextTable table("lr");
-    std::vector<std::string> head{"parameter"};
-    for (const TimingResult& result : results) head.push_back(result.name);
-    table.add_row(head);
-    for (const FitParameter& p : fit_parameters()) {
-        std::vector<std::string> row{fmt::format("{} {}", p.name, p.unit)};
-        for (const TimingResult& result : results) {
-            MesoSettings settings = result.settings;
-            row.push_back(fmt::format("{:.3f}", p.value(settings)));
-        }
-        table.add_row(row);
-    }
-    fmt::print("\n{}", table.text());
-}
-
 // Writes tables and other files, and prints their names.
 void write_all(const std::vector<std::pair<std::string, std::string>>& files, const std::filesystem::path& folder,
                ColumnNames names) {
@@ -269,11 +234,12 @@ void write_all(const std::vector<std::pair<std::string, std::string>>& files, co
 MesoSettings step_one(const CalibrateCliOptions& options, const std::filesystem::path& folder, bool& no_violations) {
     const std::string file = options.timing_sweep.empty() ? scenario_file("calibration.yaml") : options.timing_sweep;
     const AcceptedFile accepted = options.accepted.empty() ? AcceptedFile{} : load_accepted(options.accepted);
-    MesoSettings start = load_meso_file(options.start);
+    MesoSettings start = load_meso_file("--start", options.start);
     std::optional<MesoSettings> given;
-    if (!options.parameters.empty()) given = load_meso_file(options.parameters);
+    if (!options.parameters.empty()) given = load_meso_file("--parameters", options.parameters);
+    const MesoSettings reference = load_meso_file("--reference", options.reference);
     Sweep sweep = open_sweep(options, file, {"fidelity=full"});
-    check_accepted(accepted, sweep, options.accepted);
+    check_accepted(accepted, sweep);
     const CompletedSweep full =
         run_sweep(options, file, std::move(sweep), folder / "passages.sqlite", detector_metrics, "full dynamics");
     if (!given && !start.leader_profile_mps.empty()) measure_leader_profile(full.sweep.base(), start);
@@ -283,11 +249,9 @@ MesoSettings step_one(const CalibrateCliOptions& options, const std::filesystem:
     MesoSettings chosen = given ? *given : fit.settings;
     if (!given) chosen.name = "fitted";
     const int threads = thread_count(options.common.threads);
-    const MesoSettings reference = load_meso_file(options.reference);
     std::vector<TimingResult> results{evaluate_timing(reference.name, cases, reference, threads)};
     if (chosen.name != reference.name) results.push_back(evaluate_timing(chosen.name, cases, chosen, threads));
-    print_timing(results, cases, accepted);
-    print_parameters(results);
+    fmt::print("{}{}", timing_text(results, cases, accepted), parameters_text(results));
     const std::vector<TimingMiss> misses = timing_misses(results.back(), cases, accepted);
     std::vector<std::pair<std::string, std::string>> files{{"permutations.csv", permutations_csv(results, cases)},
                                                            {"differences.csv", differences_csv(results.back(), cases)},
@@ -307,20 +271,6 @@ MesoSettings step_one(const CalibrateCliOptions& options, const std::filesystem:
     return chosen;
 }
 
-void print_bands(const std::string& name, const BandCheck& check) {
-    TextTable table("lr");
-    table.add_row(
-        {name, "in paper band", "in Student band", "mean |difference|", "mean difference", "band half width"});
-    for (const MetricBands& metric : check.metrics) {
-        table.add_row({metric.metric, percent(metric.share_inside(Band::paper)),
-                       percent(metric.share_inside(Band::student)), percent(metric.mean_relative_difference()),
-                       percent(metric.mean_relative_bias()), percent(metric.median_relative_half_width())});
-    }
-    table.add_row({"all metrics", percent(check.share_inside(Band::paper)), percent(check.share_inside(Band::student)),
-                   "", "", ""});
-    fmt::print("\n{}", table.text());
-}
-
 // Returns the values of --metric with the current column names. Prints a warning for each old name.
 std::vector<std::string> current_metrics(std::vector<std::string> metrics) {
     OldNameReader old_names("sweep/NAME.csv");
@@ -329,16 +279,30 @@ std::vector<std::string> current_metrics(std::vector<std::string> metrics) {
     return metrics;
 }
 
-void step_two(const CalibrateCliOptions& options, const std::filesystem::path& folder, const MesoSettings& chosen,
-              bool& no_violations) {
+// The input of step II, loaded and checked before the first run of either step.
+struct StepTwoInput {
+    std::string file;  // sweep file
+    Sweep full;        // in full dynamics
+    std::vector<std::string> metrics;
+    std::string reference;  // name of the parameters of --reference
+};
+
+StepTwoInput load_step_two(const CalibrateCliOptions& options) {
     const std::string file = options.metrics_sweep.empty() ? scenario_file("intersection.yaml") : options.metrics_sweep;
+    Sweep full = open_sweep(options, file, {"fidelity=full"});
+    std::vector<std::string> metrics = band_metrics(full, current_metrics(options.metrics));
+    return {file, std::move(full), std::move(metrics), load_meso_file("--reference", options.reference).name};
+}
+
+void step_two(const CalibrateCliOptions& options, StepTwoInput input, const std::filesystem::path& folder,
+              const MesoSettings& chosen, bool& no_violations) {
+    const std::string& file = input.file;
+    const std::string& reference = input.reference;
     const std::filesystem::path parameters = folder / "parameters.yaml";
     write_file(parameters, meso_yaml(chosen, "The parameters of this calibration."));
-    const CompletedSweep full = run_sweep(options, file, open_sweep(options, file, {"fidelity=full"}),
-                                          folder / "metrics_full.sqlite", run_metrics, "full dynamics");
-    const std::vector<std::string> metrics = band_metrics(full.store, current_metrics(options.metrics));
+    const CompletedSweep full =
+        run_sweep(options, file, std::move(input.full), folder / "metrics_full.sqlite", run_metrics, "full dynamics");
     std::vector<std::pair<std::string, std::string>> files;
-    const std::string reference = load_meso_file(options.reference).name;
     std::vector<std::pair<std::string, std::string>> sets{{reference, options.reference}};
     if (chosen.name != reference) sets.emplace_back("calibrated", std::filesystem::absolute(parameters).string());
     std::vector<BandCheck> checks;
@@ -346,14 +310,14 @@ void step_two(const CalibrateCliOptions& options, const std::filesystem::path& f
         const CompletedSweep runs =
             run_sweep(options, file, open_sweep(options, file, {"fidelity=meso", "meso=" + meso}),
                       folder / ("metrics_" + name + ".sqlite"), run_metrics, "mesoscale mode, " + name);
-        checks.push_back(check_bands(full.sweep, full.store, runs.store, metrics));
+        checks.push_back(check_bands(full.sweep, full.store, runs.store, input.metrics));
         files.emplace_back("bands_" + name + ".csv", bands_csv(checks.back()));
         no_violations = no_violations && runs.totals.runs_with_violations == 0;
     }
     fmt::print(
         "\nStep II: share of {} permutations with the mean of the mesoscale mode in the 95 % band of full dynamics\n",
         checks.back().permutations);
-    for (std::size_t k = 0; k < checks.size(); ++k) print_bands(sets[k].first, checks[k]);
+    for (std::size_t k = 0; k < checks.size(); ++k) fmt::print("{}", bands_text(sets[k].first, checks[k]));
     write_all(files, folder, column_names(options.common));
     draw_figures(band_figures(checks.back()), folder);
     no_violations = no_violations && full.totals.runs_with_violations == 0;
@@ -412,15 +376,14 @@ ExitCode calibrate(const CalibrateCliOptions& options) {
     const std::filesystem::path folder = options.common.output.empty() ? "out/calibration" : options.common.output;
     check_files(options, folder);
     prepare_folder(folder);
+    const std::string parameters = options.parameters.empty() ? (folder / "fitted.yaml").string() : options.parameters;
     bool no_violations = true;
     MesoSettings chosen;
-    if (options.step != "II") {
-        chosen = step_one(options, folder, no_violations);
-    } else {
-        chosen = load_meso_file(options.parameters.empty() ? (folder / "fitted.yaml").string() : options.parameters);
-    }
-    if (options.step != "I") step_two(options, folder, chosen, no_violations);
-    const std::string parameters = options.parameters.empty() ? (folder / "fitted.yaml").string() : options.parameters;
+    if (options.step == "II") chosen = load_meso_file("--parameters", parameters);
+    std::optional<StepTwoInput> input;
+    if (options.step != "I") input = load_step_two(options);
+    if (options.step != "II") chosen = step_one(options, folder, no_violations);
+    if (input) step_two(options, *std::move(input), folder, chosen, no_violations);
     fmt::print("{}", runnable(fmt::format("\nNext: use the parameters in a run\n"
                                           "  stopline-run scenarios/intersection.yaml --set fidelity=meso --set {}\n",
                                           shell_word("meso=" + name_or_absolute_path(parameters)))));

@@ -79,8 +79,9 @@ void declare(Options& app, RunCliOptions& options) {
         "--trajectories", options.trajectories,
         "Also write trajectories.csv. Single light: from 5 s before the green to 25 s after it. Single intersection: "
         "the first measured cycle. Networks: the whole run, or --record-from to --record-until");
-    app.add("--trajectories-file", options.trajectories_file,
-            "With --trajectories: file in the results folder. A file that ends with .gz or .zst is compressed")
+    app.add(
+           "--trajectories-file", options.trajectories_file,
+           "With --trajectories: file in the results folder. It ends with .csv or, compressed, with .csv.gz or .csv.zst")
         .type_name("FILE")
         .only_with({"--trajectories"})
         .show_default();
@@ -229,6 +230,14 @@ std::string teleports_hint(const NetworkReport& report) {
     return any ? "  rules.csv lists each teleported vehicle with its lane and time\n" : "";
 }
 
+// Returns the settings for the other fidelity. The default parameters of the mesoscale mode are replaced by those that
+// were fitted to full dynamics.
+std::vector<std::string> other_fidelity(const Scenario& scenario) {
+    if (scenario.is_meso()) return {"fidelity=full"};
+    if (scenario.meso.name != "table2") return {"fidelity=meso"};
+    return {"fidelity=meso", std::string("meso=") + kCalibratedMeso};
+}
+
 // Runs a network and writes its results. Trajectories are written during the run.
 ExitCode run_as_network(const RunCliOptions& options, const Scenario& scenario, double /*interval_s*/,
                         const std::filesystem::path& folder, RunFiles& run_files) {
@@ -254,7 +263,7 @@ ExitCode run_as_network(const RunCliOptions& options, const Scenario& scenario, 
     const auto hint = [&](const std::string& purpose, const std::vector<std::string>& settings) {
         return settings_hint(options.file, options.common, purpose, settings);
     };
-    std::string variation = hint("another fidelity", {scenario.is_meso() ? "fidelity=full" : "fidelity=meso"});
+    std::string variation = hint("another fidelity", other_fidelity(scenario));
     if (network_kind(scenario.network).signal_groups > 0) {
         variation =
             hint("other greens, offsets and turns", {"signal.green=10 s", "signal.offset=15 s", "demand.left=5 %"});
@@ -342,9 +351,21 @@ void check_files(const RunCliOptions& options, const Scenario& scenario, const s
     run_files.add_outputs(files);
     if (options.no_figures) return;
     run_files.refuse_names_of_figures(folder);
-    if (options.trajectories) {
-        refuse_name_of_figure("--trajectories-file", folder / options.trajectories_file, folder);
+}
+
+// Throws InputError if --trajectories-file names no CSV file or a file outside of the results folder.
+void check_trajectories_file(const std::string& file) {
+    constexpr std::array kEndings{".csv", ".csv.gz", ".csv.zst"};
+    const auto is_ending = [&](const char* ending) { return file.ends_with(ending); };
+    if (std::none_of(kEndings.begin(), kEndings.end(), is_ending)) {
+        throw InputError(fmt::format("--trajectories-file: the table is a CSV file, so the name '{}' must end with {}",
+                                     file, fmt::join(kEndings, " or ")));
     }
+    const std::filesystem::path path = std::filesystem::path(file).lexically_normal();
+    if (!path.is_absolute() && *path.begin() != "..") return;
+    throw InputError(fmt::format(
+        "--trajectories-file: '{}' is outside of the results folder; give a name, and choose the folder with --output",
+        file));
 }
 
 // Throws InputError if no output of the run uses the options --record-from and --record-until.
@@ -373,6 +394,7 @@ ExitCode run(const RunCliOptions& options) {
         print_message("warning: {}\n", warning);
     }
     const double interval_s = trajectory_interval_s(options, scenario);
+    check_trajectories_file(options.trajectories_file);
     const std::filesystem::path folder = options.common.output.empty() ? "out/" + scenario.name : options.common.output;
     refuse_unused_window(options, reporter_of(scenario).streams_trajectories);
     RunFilesOptions files = options.files;

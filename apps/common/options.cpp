@@ -8,6 +8,7 @@
 
 #include "base/input_error.h"
 #include "base/io/console.h"
+#include "base/nearest_name.h"
 #include "base/version.h"
 #include "common/examples.h"
 #include "scenario/schema/quantity.h"
@@ -25,6 +26,104 @@ std::uint64_t parse_seed(const std::string& names, const std::string& text) {
     }
     return seed.value;
 }
+
+bool is_option(const std::string& word) { return word.size() > 1 && word.front() == '-'; }
+
+bool has_open_bracket(const std::string& text) {
+    const auto opening = std::count_if(text.begin(), text.end(), [](char c) { return c == '[' || c == '{'; });
+    const auto closing = std::count_if(text.begin(), text.end(), [](char c) { return c == ']' || c == '}'; });
+    return opening > closing;
+}
+
+bool is_unit(const std::string& word) {
+    return std::any_of(units().begin(), units().end(),
+                       [&](const Unit& one) { return !one.text.empty() && one.text == word; });
+}
+
+// The words of a command line that contains words which the program does not know.
+class UnknownWords {
+public:
+    UnknownWords(const CLI::App& app, std::vector<std::string> words)
+        : app_(app), words_(std::move(words)), unknown_(app.remaining(true)) {}
+
+    // Returns the message about the unknown words, in their order on the command line.
+    std::string message() const {
+        if (std::string text = unquoted_setting(); !text.empty()) return text;
+        std::vector<std::string> problems;
+        for (std::size_t k = 0; k < words_.size(); ++k) {
+            if (!is_unknown(words_[k])) continue;
+            const bool is_value = k > 0 && is_option(words_[k - 1]) && is_unknown(words_[k - 1]);
+            if (is_option(words_[k])) {
+                problems.push_back(option_problem(k));
+            } else if (!is_value) {
+                problems.push_back(fmt::format("the argument '{}' is not expected", words_[k]));
+            }
+        }
+        return fmt::format("{}", fmt::join(problems, ", "));
+    }
+
+private:
+    bool is_unknown(const std::string& word) const {
+        return std::find(unknown_.begin(), unknown_.end(), word) != unknown_.end();
+    }
+
+    bool has_option(const std::string& name) const {
+        const std::vector<std::string> names = option_names();
+        return std::find(names.begin(), names.end(), name) != names.end();
+    }
+
+    // Returns the long names of all options that the command line may have, with those of the named subcommands.
+    std::vector<std::string> option_names() const {
+        std::vector<std::string> names;
+        std::vector<const CLI::App*> apps{&app_};
+        for (const CLI::App* const subcommand : app_.get_subcommands()) apps.push_back(subcommand);
+        for (const CLI::App* const app : apps) {
+            for (const CLI::Option* const option : app->get_options()) {
+                for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+            }
+        }
+        return names;
+    }
+
+    // Returns the message about the unknown option that is word k.
+    std::string option_problem(std::size_t k) const {
+        const std::string name = words_[k].substr(0, words_[k].find('='));
+        if (name == "--population" && has_option("--set")) {
+            std::string value = "NAME";
+            if (name != words_[k]) {
+                value = words_[k].substr(name.size() + 1);
+            } else if (k + 1 < words_.size() && is_unknown(words_[k + 1])) {
+                value = words_[k + 1];
+            }
+            return fmt::format("unknown option '{}' (write --set 'populations=[{}]' instead)", name, value);
+        }
+        const std::string nearest = nearest_name(name, option_names());
+        return fmt::format("unknown option '{}'{}", name,
+                           nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest));
+    }
+
+    // Returns the message about a value of --set with a blank, such as signal.green=20 s, that lacks quotes. Returns ""
+    // if there is none.
+    std::string unquoted_setting() const {
+        for (std::size_t k = 0; k + 2 < words_.size(); ++k) {
+            if (words_[k] != "--set") continue;
+            std::string setting = words_[k + 1];
+            for (std::size_t next = k + 2; next < words_.size() && !is_option(words_[next]); ++next) {
+                const bool ends_here = !has_open_bracket(setting) && is_unit(words_[next]);
+                if (!ends_here && !has_open_bracket(setting) && !is_unknown(words_[next])) break;
+                setting += " " + words_[next];
+                if (ends_here) break;
+            }
+            if (setting.size() == words_[k + 1].size()) continue;
+            return fmt::format("the value of --set has a blank, so it needs quotes: write --set '{}'", setting);
+        }
+        return {};
+    }
+
+    const CLI::App& app_;
+    std::vector<std::string> words_;
+    std::vector<std::string> unknown_;
+};
 
 std::string problem_of_empty_text(const std::string& text) {
     return text.empty() ? "the value is empty; give a text, or leave the option out" : "";
@@ -170,7 +269,12 @@ std::optional<ExitCode> Options::parse(int argc, const char* const* argv) {
         app_->exit(success);  // prints the help or the version
         return ExitCode::done;
     } catch (const CLI::ParseError& error) {
-        print_message("{}: {}\nTry: {} --help\n", app_->get_name(), error.what(), program_command(app_->get_name()));
+        // A misspelt option can be the reason why a required one is missing.
+        const bool has_unknown_words = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr ||
+                                       dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+        const std::string problem = has_unknown_words ? UnknownWords(*app_, {argv + 1, argv + argc}).message() : "";
+        print_message("{}: {}\nTry: {} --help\n", app_->get_name(), problem.empty() ? error.what() : problem,
+                      program_command(app_->get_name()));
         return ExitCode::bad_input;
     }
     return std::nullopt;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
@@ -147,10 +148,12 @@ ReplayPage make_replay_page(RecordingReader& reader, const ReplayWindow& window,
                                        {"meaning", "vehicles at the start of a link of this kind"},
                                        {"per_hour", false}});
     }
+    double recorded_until_s = run.grid.time_s(0);
     for (RecordedSection section; reader.next(section);) {
         if (on_frames && !on_frames(reader.frames())) throw Interrupted();
         const double begin_s = run.grid.time_s(section.first_frame);
         const double end_s = run.grid.time_s(section.first_frame + section.frames - 1);
+        recorded_until_s = end_s;
         const bool selected = end_s >= window.from_s && begin_s <= window.until_s;
         try {
             FrameDecoder decoder(run, section.bytes);
@@ -179,7 +182,10 @@ ReplayPage make_replay_page(RecordingReader& reader, const ReplayWindow& window,
         }
     }
     if (page.frames == 0) {
-        reader.fail(fmt::format("the recording has no frame from {:g} to {:g} s", window.from_s, window.until_s));
+        const std::string until =
+            std::isfinite(window.until_s) ? fmt::format("to {:g} s", window.until_s) : std::string("on");
+        reader.fail(fmt::format("the recording has no frame from {:g} s {}; it covers {:g} to {:g} s", window.from_s,
+                                until, run.grid.time_s(0), recorded_until_s));
     }
     data += data_element("data-series", series);
     payload["first_s"] = page.from_s;

@@ -72,6 +72,17 @@ std::filesystem::path population_file(const std::filesystem::path& file, const S
     return file.parent_path() / name;
 }
 
+// Throws InputError if a figure in the folder of the tables could have the name of this file. `option`: the option that
+// names the file.
+void refuse_name_of_figure(const std::string& option, const std::filesystem::path& file,
+                           const std::filesystem::path& folder) {
+    constexpr std::array kEndings{".svg", ".png", ".gp", ".dat"};
+    const bool is_beside = resolved_path(file).parent_path() == resolved_path(folder);
+    if (!is_beside || std::find(kEndings.begin(), kEndings.end(), file.extension()) == kEndings.end()) return;
+    throw InputError(fmt::format("{}: a figure in the folder of --output could overwrite '{}'; give another ending",
+                                 option, file.string()));
+}
+
 class RecordingWriter : public RunWriter {
 public:
     RecordingWriter(const std::filesystem::path& file, const RecordingWindow& window, const RunOrigin& origin,
@@ -154,15 +165,6 @@ void RunFiles::add_outputs(CommandFiles& files) const {
             files.add_output(population_file(kind.path, scenario_, k), kind.option);
         }
     }
-}
-
-void refuse_name_of_figure(const std::string& option, const std::filesystem::path& file,
-                           const std::filesystem::path& folder) {
-    constexpr std::array kEndings{".svg", ".png", ".gp", ".dat"};
-    const bool is_beside = resolved_path(file).parent_path() == resolved_path(folder);
-    if (!is_beside || std::find(kEndings.begin(), kEndings.end(), file.extension()) == kEndings.end()) return;
-    throw InputError(fmt::format("{}: a figure in the folder of --output could overwrite '{}'; give another ending",
-                                 option, file.string()));
 }
 
 void RunFiles::refuse_names_of_figures(const std::filesystem::path& folder) const {

@@ -37,11 +37,6 @@ struct RunFilesOptions {
 
 void add_run_files_options(Options& app, RunFilesOptions& options);
 
-// Throws InputError if a figure in the folder of the tables could have the name of this file. `option`: the option that
-// names the file.
-void refuse_name_of_figure(const std::string& option, const std::filesystem::path& file,
-                           const std::filesystem::path& folder);
-
 class RunFiles {
 public:
     // `command` is the command line of the run, which recordings store. If an option has a wrong value, throws an

@@ -10,11 +10,17 @@
 
 #include "base/input_error.h"
 #include "base/io/csv.h"
+#include "base/nearest_name.h"
+#include "runs/metrics/metric_groups.h"
+#include "runs/run_metrics.h"
+#include "scenario/files/field_place.h"
 #include "sweeps/sweep_results.h"
 
 namespace stopline {
 
 namespace {
+
+constexpr int kMinRepetitions = 3;  // for the band of the paper, see confidence_interval()
 
 // Returns one result column, in the order of the runs in the sweep. The value is NaN if a run lacks this result.
 std::vector<double> column_of(const RunStore& store, const std::string& column, std::size_t points) {
@@ -75,11 +81,16 @@ double BandCheck::share_inside(Band band) const {
     return static_cast<double>(all_inside) / static_cast<double>(std::max<std::size_t>(permutations, 1));
 }
 
-std::vector<std::string> band_metrics(const RunStore& full, const std::vector<std::string>& named) {
-    std::vector<std::string> columns;
-    full.for_each_run([&](std::size_t point, const std::string& result) {
-        if (point == 0) columns = columns_in(result);
-    });
+std::vector<std::string> band_metrics(const Sweep& sweep, const std::vector<std::string>& named) {
+    const SweepSettings& settings = sweep.settings();
+    if (settings.repetitions < kMinRepetitions) {
+        throw InputError(
+            fmt::format("{}: field 'repetitions': value {} is too small: a confidence band needs at least {} "
+                        "runs with different seeds",
+                        field_place(settings.file, {}, "repetitions"), settings.repetitions, kMinRepetitions));
+    }
+    std::vector<std::string> columns = result_columns(sweep.scenario(0));
+    std::erase_if(columns, [](const std::string& column) { return !has_mean(column); });
     std::vector<std::string> chosen = named;
     for (const char* begin : {"throughput_veh_h", "density_", "travel_time_"}) {
         if (!named.empty()) break;
@@ -89,8 +100,8 @@ std::vector<std::string> band_metrics(const RunStore& full, const std::vector<st
     }
     for (const std::string& metric : chosen) {
         if (std::find(columns.begin(), columns.end(), metric) != columns.end()) continue;
-        throw InputError(
-            fmt::format("--metric: the runs have no result '{}'; choose one of: {}", metric, fmt::join(columns, ", ")));
+        throw InputError(fmt::format("--metric: the runs have no result '{}'{}", shortened(metric),
+                                     known_names_hint(metric, columns)));
     }
     if (chosen.empty()) {
         throw InputError(fmt::format("the results to compare are unknown; name them with --metric, from: {}",

@@ -24,6 +24,19 @@ std::size_t index_of_population(const Scenario& scenario, const std::string& nam
     return k;
 }
 
+// Returns the end of a message about an unknown name: the most similar name, and some known names. Each name is in
+// quotes, because the names of permutations contain commas.
+std::string quoted_names_hint(const std::string& name, const std::vector<std::string>& known) {
+    constexpr std::size_t kListedMax = 10;
+    std::vector<std::string> listed = known;
+    if (listed.size() > kListedMax) listed.resize(kListedMax);
+    const std::size_t left = known.size() - listed.size();
+    const std::string more = left > 0 ? fmt::format(" and {} more", left) : "";
+    const std::string nearest = nearest_name(name, known);
+    return fmt::format("{} '{}'{}", nearest.empty() ? "; known:" : fmt::format("; did you mean '{}'? Known:", nearest),
+                       joined(listed, "', '"), more);
+}
+
 bool is_in(const CalibrationCase& c, CaseSubset subset) {
     return subset == CaseSubset::all || c.fit.held_out == (subset == CaseSubset::held_out);
 }
@@ -97,26 +110,26 @@ Agreement timing_agreement(const TimingResult& result, const std::vector<Calibra
     return agreement(pairs, kTimingLimit_s);
 }
 
-void check_accepted(const AcceptedFile& accepted, const Sweep& sweep, const std::string& file) {
+void check_accepted(const AcceptedFile& accepted, const Sweep& sweep) {
     if (accepted.accepted.empty()) return;
-    constexpr std::size_t kListed = 10;
     std::vector<std::string> permutations;
     for (std::size_t point = 0; point < sweep.points(); ++point) permutations.push_back(permutation_text(sweep, point));
     for (std::size_t entry = 0; entry < accepted.accepted.size(); ++entry) {
         const AcceptedDifference& difference = accepted.accepted[entry];
-        const auto check = [&](const char* field, const std::string& name, const std::vector<std::string>& known) {
+        const auto check = [&](const std::string& place, const char* field, const std::string& name,
+                               const std::vector<std::string>& known) {
             if (std::find(known.begin(), known.end(), name) != known.end()) return;
-            throw InputError(fmt::format("{}: field 'accepted[{}].{}': there is no {} '{}'{}", file, entry, field,
-                                         field, shortened(name), known_names_hint(name, known, kListed)));
+            throw InputError(fmt::format("{}: field 'accepted[{}].{}': there is no {} '{}'{}", place, entry, field,
+                                         field, shortened(name), quoted_names_hint(name, known)));
         };
-        check("permutation", difference.permutation, permutations);
+        check(difference.permutation_place, "permutation", difference.permutation, permutations);
         const auto found = std::find(permutations.begin(), permutations.end(), difference.permutation);
         const auto point = static_cast<std::size_t>(found - permutations.begin());
         const Scenario scenario = sweep.scenario(sweep.combination(point));
         const Model model = build_model(scenario, index_of_population(scenario, sweep.population(point)));
         std::vector<std::string> detectors;
         for (std::size_t k = 0; k < model.detectors.size(); ++k) detectors.push_back(detector_name(model, k));
-        check("detector", difference.detector, detectors);
+        check(difference.detector_place, "detector", difference.detector, detectors);
     }
 }
 

@@ -62,9 +62,8 @@ struct TimingMiss {
     std::string accepted;  // reason why the user accepts the difference; empty: not accepted
 };
 
-// Checks that the permutation and the detector of each entry exist. Throws InputError if not. `file`: name of the file
-// with the accepted differences, for the message.
-void check_accepted(const AcceptedFile& accepted, const Sweep& sweep, const std::string& file);
+// Checks that the permutation and the detector of each entry exist. Throws InputError if not.
+void check_accepted(const AcceptedFile& accepted, const Sweep& sweep);
 
 std::vector<TimingMiss> timing_misses(const TimingResult& result, const std::vector<CalibrationCase>& cases,
                                       const AcceptedFile& accepted);

@@ -28,10 +28,12 @@ struct DeliverySettings {
 // (v2v/fallback.h).
 struct FallbackSettings {
     // Time gap without any estimate of the leader's acceleration (ACC): the shortest one of the range from 1.5 s to
-    // 2.2 s, of which ISO 15622:2018 demands one. A string-stable ACC with the default gains would need 3.16 s.
+    // 2.2 s, of which ISO 15622:2018 demands one. A string-stable ACC with the default gains would need 3.16 s, and
+    // 3.31 s with a radar delay of 0.15 s.
     double acc_time_gap_s = 1.5;
     // Time gap with the leader's acceleration estimated from radar (dCACC): the smallest string-stable one with the
-    // default gains and a lag of 0.3 s. With a lag of 0.1 s, 1.15 s suffices.
+    // default gains, a lag of 0.3 s and a radar without delay. With a lag of 0.1 s, 1.15 s suffices. With a radar delay of
+    // 0.15 s, 1.56 and 1.36 s are needed.
     double radar_time_gap_s = 1.23;
 
     bool operator==(const FallbackSettings&) const = default;

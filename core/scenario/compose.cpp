@@ -184,28 +184,32 @@ SourceNode* find_entry(SourceNode& list, const std::string& entry) {
     return find_entry_by_name(list, entry);
 }
 
-std::string entries_text(const SourceNode& list) {
+// Returns the end of a message about a list without an entry `wanted`: the most similar name, and all entries.
+std::string entries_hint(const SourceNode& list, const std::string& wanted) {
     std::vector<std::string> names;
     for (const SourceNode& item : list.items) {
         if (name_of(item) != nullptr) names.push_back(name_of(item)->text);
     }
-    return "has the entries 0 to " + std::to_string(list.items.size() - 1) +
-           (names.empty() ? "" : " (" + joined(names) + ")");
+    const std::string nearest = nearest_name(wanted, names);
+    return (nearest.empty() ? "; it has" : "; did you mean '" + nearest + "'? It has") + " the entries 0 to " +
+           std::to_string(list.items.size() - 1) + (names.empty() ? "" : " (" + joined(names) + ")");
 }
 
 // Sets the field at a path to a value. Reports an error if the path does not exist.
 class Setter {
 public:
-    // `file`: the tree before all overrides.
-    Setter(SourceNode value, const SourceNode& file, Report& report)
-        : value_(std::move(value)), file_(file), report_(report) {}
+    // `root`: the table of the whole file. `file`: the tree before all overrides.
+    Setter(SourceNode value, const Table& root, const SourceNode& file, Report& report)
+        : value_(std::move(value)), root_(root), file_(file), report_(report) {}
 
     void set(const Table& table, SourceNode& map, const std::vector<PathStep>& steps, std::size_t i,
              const std::string& path) {
         const PathStep& step = steps[i];
         const std::string here = join_path(path, step.name);
         const Field* const field = table.find(step.name);
-        if (field == nullptr) return error(here, "is unknown" + known_names_hint(step.name, table.names()));
+        if (field == nullptr) {
+            return error(here, "is unknown" + unknown_field_hint(root_, table, path, step.name));
+        }
         reached_ = join_path(reached_, step.name);
         const bool last = i + 1 == steps.size();
         if (last && step.entries.empty()) {
@@ -221,6 +225,9 @@ public:
         }
         complete_field(table, *field, map, here, report_);
         if (!step.entries.empty()) return set_entry(*field, map, steps, i, here);
+        if (const auto* const list = std::get_if<ListField>(&field->kind)) {
+            return error(here, missing_entry_problem(*list, here, steps, i));
+        }
         const auto* const section = std::get_if<SectionField>(&field->kind);
         if (section == nullptr) return error(here, "has no field '" + steps[i + 1].name + "' inside");
         SourceNode* inner = map.find(step.name);
@@ -261,7 +268,8 @@ private:
             return error(path, "has no entry [" + shortened(wanted) + "] to set");
         }
         SourceNode* const entry = find_entry(*list, wanted);
-        if (entry == nullptr) return error(path, "has no entry [" + shortened(wanted) + "]; it " + entries_text(*list));
+        if (entry == nullptr)
+            return error(path, "has no entry [" + shortened(wanted) + "]" + entries_hint(*list, wanted));
         reached_ += "[" + std::to_string(entry - list->items.data()) + "]";
         const auto* const items = std::get_if<ListField>(&field.kind);
         if (last) {
@@ -278,6 +286,7 @@ private:
     }
 
     SourceNode value_;
+    const Table& root_;
     const SourceNode& file_;
     Report& report_;
     std::string reached_;
@@ -330,7 +339,7 @@ std::string apply_override(const Table& table, SourceNode& root, const SourceNod
     if (path != written) report.warn(place, old_name_warning(shortened(written), shortened(path)));
     try {
         SourceNode value = parse_yaml(std::string_view(text).substr(equals + 1), source);
-        Setter setter(std::move(value), file, report);
+        Setter setter(std::move(value), table, file, report);
         setter.set(table, root, path_steps(path), 0, "");
         return setter.reached();
     } catch (const YamlError& error) {

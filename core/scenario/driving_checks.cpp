@@ -104,8 +104,11 @@ void check_lags(const DrivenVehicle& driven, Checker& check) {
 //
 // Mesoscale mode: before a stop with the remaining distance r, the speed of the next step is
 //     v(r) = sqrt((b tau)^2 + 2 b r) - b tau
-// with the deceleration b and the reaction time tau of the model. The vehicle drives v(r) dt in the step dt.
-// If dt > tau, this distance exceeds r by at most b (dt - tau)^2 / 2. If dt <= tau, the vehicle stops in time.
+// with the deceleration b and the reaction time tau of the model. The vehicle drives v(r) dt in the step dt. This can be
+// further than r. In each later step, the speed falls by at most e dt, with the emergency deceleration e of the driver.
+// In n steps from the speed v on, the vehicle thus drives n v dt - n (n - 1) / 2 e dt^2. The remaining distance was
+// r = v^2 / (2 b) + tau v. The difference is greatest for v = b (n dt - tau). For n = 1 it is b (dt - tau)^2 / 2 if
+// dt > tau. If dt <= tau and b <= e, the vehicle stops in time.
 double stop_overshoot_m(const Scenario& scenario, const PopulationSettings::Component& component) {
     const auto policy = std::find_if(scenario.policies.begin(), scenario.policies.end(),
                                      [&](const GapPolicySettings& one) { return one.name == component.policy; });
@@ -115,7 +118,17 @@ double stop_overshoot_m(const Scenario& scenario, const PopulationSettings::Comp
     const DriverSettings& driver = driver_of(scenario, component);
     const FollowingBraking braking = make_following_model({scenario.meso, driver.human}, gap).braking();
     const double b = std::min(braking.deceleration_mps2, driver.stop.deceleration_mps2);
-    return 0.5 * b * square(std::max(scenario.meso.step_s - braking.reaction_s, 0.0));
+    const double step_s = scenario.meso.step_s;
+    const double step_braking_mps = driver.cacc.deceleration_emergency_mps2 * step_s;
+    const double highest_mps = vehicle_of(scenario, component).maximum_speed_mps;
+    double overshoot_m = 0.0;
+    for (int n = 1;; ++n) {
+        const double speed_mps = std::min(b * (n * step_s - braking.reaction_s), highest_mps);
+        if (speed_mps <= (n - 1) * step_braking_mps) return overshoot_m;  // stopped before the n-th step
+        const double driven_m = n * step_s * (speed_mps - 0.5 * (n - 1) * step_braking_mps);
+        const double remaining_m = speed_mps * (0.5 * speed_mps / b + braking.reaction_s);
+        overshoot_m = std::max(overshoot_m, driven_m - remaining_m);
+    }
 }
 
 // Checks that the margins before stop lines and conflict areas are longer than a vehicle can overshoot its stop.
@@ -136,6 +149,20 @@ void check_stop_margins(const Scenario& scenario, const DriverSettings& driver, 
     if (network_kind(scenario.network).run != kRunAsSingleLight) compare(".give_way.margin", driver.give_way.margin_m);
 }
 
+// Full dynamics: checks that vehicles come to rest before a conflict area. Their control ends a stop with an error far
+// below this margin, but the front of a vehicle at rest exactly at the area would count as inside.
+void check_give_way_margin(const Scenario& scenario, const DriverSettings& driver, const std::string& field,
+                           Checker& check) {
+    constexpr double kMinMargin_m = 0.01;
+    if (network_kind(scenario.network).run == kRunAsSingleLight) return;
+    if (driver.give_way.margin_m >= kMinMargin_m - kRounding) return;
+    check.error(field + ".give_way.margin",
+                fmt::format("value {} is too small: in full dynamics vehicles can creep into "
+                            "a conflict area from there. Give at least {}",
+                            short_text(driver.give_way.margin_m, unit("m")), short_text(kMinMargin_m, unit("m"))));
+}
+
+// Mesoscale mode: checks the margins of all drivers.
 void check_stops(const Scenario& scenario, Checker& check) {
     struct Stop {
         const DriverSettings* driver = nullptr;
@@ -186,12 +213,16 @@ void check_gaps(const Scenario& scenario, Checker& check) {
         check_lags(driven, check);
     };
     check_driven({"vehicle", scenario.vehicle, scenario.driver});
+    check_give_way_margin(scenario, scenario.driver, "driver", check);
     for (const PopulationSettings& population : scenario.populations) {
         for (std::size_t k = 0; k < population.components.size(); ++k) {
             const PopulationSettings::Component& component = population.components[k];
             if (!component.vehicle && !component.driver) continue;
             const std::string field = fmt::format("populations[{}].components[{}].vehicle", population.name, k);
             check_driven({field, vehicle_of(scenario, component), driver_of(scenario, component)});
+            if (!component.driver) continue;
+            check_give_way_margin(scenario, driver_of(scenario, component),
+                                  fmt::format("populations[{}].components[{}].driver", population.name, k), check);
         }
     }
 }

@@ -122,6 +122,7 @@ Scenario scenario_from(SourceNode root, const std::vector<std::string>& override
     Scenario scenario;
     read_fields(scenario_table(), root, "", &scenario, report);
     report.throw_if_any();
+    if (scenario.measure.baseline == kNoBaseline) scenario.measure.baseline.clear();
     const NetworkKind& kind = network_kind(scenario.network);
     if (kind.ends_after_cycles && scenario.duration_s != 0.0) {
         scenario.measure.cycles = cycles_within_duration(scenario);
@@ -151,7 +152,7 @@ S load_data(const Table& table, const std::string& folder, const std::string& na
     SourceNode node;
     node.kind = SourceNode::Kind::scalar;
     node.text = name_or_path;
-    node.place.source = std::make_shared<Source>(Source{shortened(name_or_path), directory});
+    node.place.source = std::make_shared<Source>(Source{shortened(name_or_path), directory, false});
     Report report;
     resolve_base(table, folder, node, folder, report);
     complete(table, node, "", report);

@@ -16,10 +16,13 @@
 
 namespace stopline {
 
+inline constexpr const char* kNoBaseline = "none";
+
 struct MeasureSettings {
     // For network.kind `approach` only: times after the start of green at which the passed vehicles are counted.
     std::vector<double> green_s;
-    std::string baseline;  // name of the population with which the others are compared; empty: none
+    // Name of the population with which the others are compared; empty: none. Files can also give kNoBaseline for none.
+    std::string baseline;
     // For network.kind `approach` only: off | on: measures whether accelerations grow along the queue.
     std::string string_stability = "off";
     // For single intersections only:

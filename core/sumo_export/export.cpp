@@ -7,6 +7,7 @@
 
 #include "base/input_error.h"
 #include "base/io/child_process.h"
+#include "base/nearest_name.h"
 #include "runs/interrupted.h"
 #include "runs/intersection/intersection_run.h"
 #include "runs/run_kind.h"
@@ -99,12 +100,12 @@ std::string export_to_sumo(const Scenario& scenario, std::size_t population, con
 }
 
 std::size_t population_index(const Scenario& scenario, const std::string& name) {
-    std::string known;
+    std::vector<std::string> known;
     for (std::size_t k = 0; k < scenario.populations.size(); ++k) {
         if (scenario.populations[k].name == name) return k;
-        known += (known.empty() ? "" : ", ") + scenario.populations[k].name;
+        known.push_back(scenario.populations[k].name);
     }
-    throw InputError(fmt::format("there is no population '{}'; known: {}", name, known));
+    throw InputError(fmt::format("there is no population '{}'{}", shortened(name), known_names_hint(name, known)));
 }
 
 bool has_sumo() {

@@ -4,11 +4,27 @@
 
 #include <fmt/format.h>
 
+#include "base/nearest_name.h"
+
 namespace stopline {
 
 namespace {
 
 constexpr SumoVersion kNewDefaults{1, 27};  // first version of SUMO with the defaults best_prob and avg
+
+// Throws InputError unless an attribute that is none of the known words is a number.
+template <class Meaning>
+void require_number(const SumoXml& xml, pugi::xml_node node, const char* attribute,
+                    const std::map<std::string, Meaning>& known) {
+    const std::string text = node.attribute(attribute).value();
+    if (sumo_number(text)) return;
+    std::vector<std::string> words;
+    for (const auto& [word, meaning] : known) {
+        if (!word.empty()) words.push_back(word);
+    }
+    xml.refuse(node, fmt::format("element '{}': {}=\"{}\" is neither a number nor a known word{}", node.name(),
+                                 attribute, shortened(text), known_names_hint(text, words)));
+}
 
 // Reads departLane. Returns false if the element does not have the attribute.
 bool read_lane(const SumoXml& xml, pugi::xml_node node, Trip& trip) {
@@ -22,6 +38,7 @@ bool read_lane(const SumoXml& xml, pugi::xml_node node, Trip& trip) {
         trip.depart_lane = found->second;
         return true;
     }
+    require_number(xml, node, "departLane", known);
     trip.depart_lane = Trip::DepartLane::given;
     trip.lane = xml.whole_number(node, "departLane");
     return true;
@@ -40,6 +57,7 @@ bool read_speed(const SumoXml& xml, pugi::xml_node node, Trip& trip) {
         trip.depart_speed = found->second;
         return true;
     }
+    require_number(xml, node, "departSpeed", known);
     const double given_mps = xml.number(node, "departSpeed");
     if (given_mps < 0.0 || given_mps > kMaxSpeed_mps) {
         xml.refuse(node, fmt::format("'departSpeed' must be between 0 and {} m/s", kMaxSpeed_mps));
@@ -60,6 +78,7 @@ void read_position(const SumoXml& xml, pugi::xml_node node, SumoWarnings& warnin
     } else if (position == "stop") {
         warnings.note(xml.where(node), "departPos=\"stop\" is not supported; 'base' is used");
     } else {
+        require_number(xml, node, "departPos", known);
         trip.depart_position = Trip::DepartPosition::given;
         trip.front_m = static_cast<float>(xml.number(node, "departPos"));
     }

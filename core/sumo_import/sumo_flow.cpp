@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "base/nearest_name.h"
 #include "base/random.h"
 
 namespace stopline {
@@ -116,6 +117,17 @@ private:
         for (std::int64_t k = 0; add(begin_s_ + static_cast<double>(k) * headway_s);) ++k;
     }
 
+    // Returns the end of a message about a missing attribute: the attribute that may be a misspelt one; "" for none.
+    std::string misspelt_attribute_hint() const {
+        const std::vector<std::string> known{"number", "period", "vehsPerHour", "perHour", "probability"};
+        for (const pugi::xml_attribute attribute : node_.attributes()) {
+            const std::string nearest = nearest_name(attribute.name(), known);
+            if (nearest.empty()) continue;
+            return fmt::format("; did you mean '{}' instead of '{}'?", nearest, shortened(attribute.name()));
+        }
+        return "";
+    }
+
     // Returns the constant headway between the departures of a flow without random departures.
     double even_headway_s() const {
         constexpr double kMinHeadway_s = 1e-3;
@@ -133,7 +145,8 @@ private:
         } else if (number_) {
             headway_s = *number_ > 0.0 ? (end_s_ - begin_s_) / *number_ : kNever_s;
         } else {
-            xml_.refuse(node_, "a flow needs 'number', 'period', 'vehsPerHour' or 'probability'");
+            xml_.refuse(node_,
+                        "a flow needs 'number', 'period', 'vehsPerHour' or 'probability'" + misspelt_attribute_hint());
         }
         if (!(headway_s >= kMinHeadway_s)) {
             xml_.refuse(node_, fmt::format("the headway of the flow must be at least {} s", kMinHeadway_s));

@@ -112,7 +112,11 @@ private:
     int edge_of(pugi::xml_node node, const char* attribute, std::string_view id) const {
         const auto found = network_.net.edge_by_id.find(std::string(id));
         if (found == network_.net.edge_by_id.end()) {
-            xml_->refuse(node, fmt::format("{}: there is no edge '{}'", attribute, id));
+            std::vector<std::string> ids;
+            for (const SumoEdge& edge : network_.net.edges) {
+                if (!edge.internal) ids.push_back(edge.id);
+            }
+            xml_->refuse(node, fmt::format("{}: there is no edge '{}'{}", attribute, id, known_ids_hint(id, ids)));
         }
         int edge = found->second;
         while (network_.net.edges[at(edge)].merged_into >= 0) edge = network_.net.edges[at(edge)].merged_into;
@@ -188,11 +192,18 @@ private:
         add_named_route(node, std::move(shares));
     }
 
+    // Returns the end of a message about an unknown route: the most similar id, and some known ids.
+    std::string routes_hint(const std::string& unknown) const {
+        std::vector<std::string> ids;
+        for (const auto& [id, shares] : named_routes_) ids.push_back(id);
+        return known_ids_hint(unknown, std::move(ids));
+    }
+
     // Returns the index of the route with this id. Throws InputError for an unknown id or the id of a distribution.
     std::size_t known_route(pugi::xml_node node, const std::string& id) const {
         const auto found = named_routes_.find(id);
         if (found == named_routes_.end())
-            xml_->refuse(node, fmt::format("there is no route '{}' before this element", id));
+            xml_->refuse(node, fmt::format("there is no route '{}' before this element{}", id, routes_hint(id)));
         if (found->second.size() != 1)
             xml_->refuse(node, fmt::format("'{}' is a distribution; a single route is needed", id));
         return found->second[0].first;
@@ -203,7 +214,8 @@ private:
         if (const pugi::xml_node child = node.child("route")) return {{read_route(child), 1.0}};
         if (const std::string id = node.attribute("route").value(); !id.empty()) {
             const auto found = named_routes_.find(id);
-            if (found == named_routes_.end()) xml_->refuse(node, fmt::format("route: there is no route '{}'", id));
+            if (found == named_routes_.end())
+                xml_->refuse(node, fmt::format("route: there is no route '{}'{}", id, routes_hint(id)));
             return found->second;
         }
         refuse_places_without_edges(node);

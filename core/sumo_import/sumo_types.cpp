@@ -187,8 +187,8 @@ void SumoTypes::read(const SumoXml& xml, pugi::xml_node node, SumoWarnings& warn
     for (const std::string_view member : sumo_words(members)) {
         const auto known = types_by_name_.find(std::string(member));
         if (known == types_by_name_.end() || known->second.size() != 1) {
-            xml.refuse(node,
-                       fmt::format("vTypeDistribution '{}': there is no vType '{}' before this element", id, member));
+            xml.refuse(node, fmt::format("vTypeDistribution '{}': there is no vType '{}' before this element{}", id,
+                                         member, names_hint(member)));
         }
         const auto share = k < probabilities.size() ? sumo_number(probabilities[k]) : 1.0;
         if (!share) xml.refuse(node, fmt::format("vTypeDistribution '{}': a probability must be a finite number", id));
@@ -200,10 +200,19 @@ void SumoTypes::read(const SumoXml& xml, pugi::xml_node node, SumoWarnings& warn
     add(xml, node, id, std::move(shares));
 }
 
+std::string SumoTypes::names_hint(std::string_view unknown) const {
+    std::vector<std::string> names;
+    for (const auto& [name, shares] : types_by_name_) {
+        if (!name.empty()) names.push_back(name);
+    }
+    return known_ids_hint(unknown, std::move(names));
+}
+
 const SumoType& SumoTypes::pick(const SumoXml& xml, pugi::xml_node node, const std::string& name,
                                 double random_number) const {
     const auto found = types_by_name_.find(name);
-    if (found == types_by_name_.end()) xml.refuse(node, fmt::format("there is no vType '{}'", name));
+    if (found == types_by_name_.end())
+        xml.refuse(node, fmt::format("there is no vType '{}'{}", name, names_hint(name)));
     return types_[pick_by_share(found->second, random_number, [](const Share& share) { return share.upper; }).type];
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -54,6 +55,9 @@ private:
     };
     std::size_t read_type(const SumoXml& xml, pugi::xml_node node, SumoWarnings& warnings);
     void add(const SumoXml& xml, pugi::xml_node node, const std::string& name, std::vector<Share> shares);
+
+    // Returns the end of a message about an unknown type: the most similar name, and the known names.
+    std::string names_hint(std::string_view unknown) const;
 
     bool uses_driving_;
     std::vector<SumoType> types_;

@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "base/input_error.h"
+#include "base/nearest_name.h"
 #include "sumo_import/xml/xml_text.h"
 
 namespace stopline {
@@ -110,11 +111,6 @@ std::optional<SumoVersion> version_of(std::string_view word) {
     return version;
 }
 
-std::string shortened(std::string_view text) {
-    constexpr std::size_t kMaxLength = 60;
-    return text.size() <= kMaxLength ? std::string(text) : std::string(text.substr(0, kMaxLength)) + "...";
-}
-
 }  // namespace
 
 std::optional<double> sumo_number(std::string_view text) {
@@ -123,6 +119,12 @@ std::optional<double> sumo_number(std::string_view text) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
     return value;
+}
+
+std::string known_ids_hint(std::string_view unknown, std::vector<std::string> ids) {
+    constexpr std::size_t kListedMax = 12;
+    std::sort(ids.begin(), ids.end());
+    return known_names_hint(unknown, ids, kListedMax);
 }
 
 std::vector<std::string_view> sumo_words(std::string_view text) {

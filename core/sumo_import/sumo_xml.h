@@ -78,6 +78,8 @@ private:
 std::optional<SumoVersion> sumo_version(std::string_view text);
 // Converts the text to a number. Returns nothing unless the whole text is one finite decimal number.
 std::optional<double> sumo_number(std::string_view text);
+// Returns the end of a message about an unknown id: the most similar id, and some known ids in alphabetical order.
+std::string known_ids_hint(std::string_view unknown, std::vector<std::string> ids);
 // Returns the words of the text, which are separated by white space.
 std::vector<std::string_view> sumo_words(std::string_view text);
 

@@ -7,6 +7,7 @@
 #include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/input_error.h"
 #include "base/nearest_name.h"
@@ -32,12 +33,26 @@ std::vector<std::string> names_of_populations(const Scenario& scenario) {
 
 std::string no_population_text(const std::string& name) { return fmt::format("has no population '{}'", name); }
 
+// Returns the end of the message about an unknown population.
+std::string population_hint(const Scenario& scenario, const std::string& name) {
+    const std::vector<std::string> known = names_of_populations(scenario);
+    if (name == kAllPopulations) {
+        return fmt::format("; to run all populations, write 'populations: {}' without other names (known: {})", name,
+                           fmt::join(known, ", "));
+    }
+    const bool is_policy = std::any_of(scenario.policies.begin(), scenario.policies.end(),
+                                       [&](const GapPolicySettings& policy) { return policy.name == name; });
+    if (!is_policy) return known_names_hint(name, known);
+    return fmt::format(", but a policy of this name: add it to the field 'populations' of the scenario (known: {})",
+                       fmt::join(known, ", "));
+}
+
 void require_populations(const Scenario& scenario, const std::vector<std::string>& wanted) {
     const std::vector<std::string> known = names_of_populations(scenario);
     for (const std::string& name : wanted) {
         if (std::find(known.begin(), known.end(), name) != known.end()) continue;
         throw InputError(fmt::format("the scenario {} {}{}", scenario.name, no_population_text(name),
-                                     known_names_hint(name, known)));
+                                     population_hint(scenario, name)));
     }
 }
 

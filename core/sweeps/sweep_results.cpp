@@ -118,12 +118,6 @@ std::string result_text(const Sweep& sweep, std::size_t point, const std::vector
     return text;
 }
 
-std::vector<std::string> columns_in(const std::string& result) {
-    std::vector<std::string> names;
-    for_each_value(result, [&](std::string_view name, std::string_view) { names.emplace_back(name); });
-    return names;
-}
-
 std::string value_in(const std::string& result, const std::string& column) {
     std::string found;
     for_each_value(result, [&](std::string_view name, std::string_view value) {

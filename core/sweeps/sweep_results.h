@@ -16,9 +16,6 @@ namespace stopline {
 // text can be read without the sweep file, so any machine can merge the stores of several machines.
 std::string result_text(const Sweep& sweep, std::size_t point, const std::vector<RunMetric>& metrics);
 
-// Returns the names of the columns in a result text, in the order of the lines.
-std::vector<std::string> columns_in(const std::string& result);
-
 // Returns the value of a column in a result text; "" if the text does not have the column.
 std::string value_in(const std::string& result, const std::string& column);
 

@@ -88,6 +88,8 @@ class ScenarioDraw:
             fields["meso"] = {"base": self.rng.choice(MESO), "step": f"{self.rng.choice([0.05, 0.1, 0.1, 0.2, 0.5])} s"}
         fields["duration"] = f"{self.number(60, 240) if fidelity == 'meso' else self.number(40, 120)} s"
         fields.update(getattr(self, kind)())
+        if kind == "approach" and fidelity == "meso":
+            fields["network"]["approach"]["gradient"] = "0 %"  # only full dynamics has slopes
         self.add_population(fields)
         if self.chance(60):
             fields["driver"] = self.driver()

@@ -18,11 +18,11 @@ TEST(Checks, SharesSumToOne) {
         error_with(
             {"populations=[{name: A, components: [{policy: CDG, share: 33.3333 %}, {policy: CTG-Ref, share: 66.6667 %}]}]"}),
         "");
-    // In double precision 0.1 + 0.7 + 0.2 is slightly less than 1.
+    // In double precision 10 % + 70 % + 20 % is slightly less than 100 %.
     EXPECT_EQ(
         error_with(
-            {"populations=[{name: A, components: [{policy: CDG, share: 0.1}, {policy: CTG-Ref, share: 0.7}, {policy: "
-             "CTG-HBS, share: 0.2}]}]"}),
+            {"populations=[{name: A, components: [{policy: CDG, share: 10 %}, {policy: CTG-Ref, share: 70 %}, {policy: "
+             "CTG-HBS, share: 20 %}]}]"}),
         "");
 }
 
@@ -37,6 +37,15 @@ TEST(Checks, NamesAreKnownAndUnique) {
     EXPECT_TRUE(
         contains(error_with({"measure.baseline=CTG"}), "field 'measure.baseline': there is no population 'CTG'"));
     EXPECT_EQ(error_with({"measure.baseline=MIX"}), "");
+}
+
+TEST(Checks, ABaselineCanBeTakenBack) {
+    const std::string file = "populations: [CDG, CTG-Ref]\nmeasure: {baseline: CTG-Ref}\n";
+    EXPECT_TRUE(contains(error_of(file, {"populations=[CDG]"}),
+                         "there is no population 'CTG-Ref'; known: CDG; give one of these, or none for no comparison"));
+    EXPECT_EQ(parse_scenario(file, "x", {"populations=[CDG]", "measure.baseline=none"}).measure.baseline, "");
+    const Scenario without = parse_scenario("populations: [CDG, CTG-Ref]\nname: x\n", "x");
+    EXPECT_EQ(parse_scenario(file, "x", {"measure.baseline=none"}).hash, without.hash);
 }
 
 TEST(Checks, OwnPoliciesReplacePoliciesOfThePaper) {

@@ -113,8 +113,37 @@ TEST(DrivingChecks, MarginsCoverTheStepsOfAStop) {
     EXPECT_TRUE(contains(with({"meso.step=0.5 s", "driver.give_way.margin=0.2 m"}), "field 'driver.give_way.margin'"));
     EXPECT_EQ(with({"driver.give_way.margin=0.014 m"}), "");
     EXPECT_TRUE(contains(with({"driver.give_way.margin=0 m"}), "at least 0.014 m"));
-    // Full dynamics has no such steps.
-    EXPECT_EQ(error_with({"network.kind=intersection", "duration=400 s", "driver.give_way.margin=0 m"}), "");
+}
+
+// If the deceleration of a stop is near the emergency deceleration, a vehicle cannot stop in the step after the one in
+// which it reaches its place. With 5 m/s2 and 7 m/s2 it then overshoots by up to b (2 dt - tau)^2 / 2 - e dt^2, which is
+// 2.5 - 1.75 = 0.75 m for steps of 0.5 s and without reaction time. One step alone would give 0.625 m.
+TEST(DrivingChecks, MarginsCoverTheLimitOfBraking) {
+    const auto with_margin = [](const std::string& margin) {
+        return error_with(
+            {"fidelity=meso",
+             "meso={base: passages, step: 0.5 s, constant_distance: {deceleration: 5 m/s2, reaction: 0 s}}",
+             "populations=[CDG]", "network.kind=intersection", "duration=400 s", "driver.stop.deceleration=6 m/s2",
+             "driver.give_way.margin=1 m", "driver.stop.margin=" + margin});
+    };
+    EXPECT_TRUE(contains(with_margin("0.75 m"), "vehicles can stop 0.75 m too late. Give at least 0.751 m"))
+        << with_margin("0.75 m");
+    EXPECT_EQ(with_margin("0.751 m"), "");
+}
+
+TEST(DrivingChecks, FullDynamicsNeedsAMarginBeforeConflictAreas) {
+    const std::vector<std::string> intersection{"network.kind=intersection", "duration=400 s"};
+    const auto with = [&](std::vector<std::string> overrides) {
+        overrides.insert(overrides.begin(), intersection.begin(), intersection.end());
+        return error_with(overrides);
+    };
+    EXPECT_TRUE(contains(with({"driver.give_way.margin=0.009 m"}),
+                         "field 'driver.give_way.margin': value 0.009 m is too small: in full dynamics"));
+    EXPECT_EQ(with({"driver.give_way.margin=0.01 m"}), "");
+    EXPECT_TRUE(contains(with({"populations=[{name: P, components: [{policy: CDG, share: 100 %, driver: {base: "
+                               "startup_kit, give_way: {margin: 0 m}}}]}]"}),
+                         "field 'populations[P].components[0].driver.give_way.margin'"));
+    EXPECT_EQ(error_with({"driver.give_way.margin=0 m"}), "") << "a single light has no conflict areas";
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
+constexpr const char* kGrid = "network: {kind: grid}\n";
 constexpr const char* kRemoval = "; the old name will be removed in the next release";
 
 Scenario load(const std::string& text, const Lines& overrides = {}) {
@@ -22,7 +23,8 @@ Scenario load(const std::string& text, const Lines& overrides = {}) {
 }
 
 TEST(FieldAlias, OldNamesInAFileGiveAWarningWithTheirPlace) {
-    const Scenario s = load("title: x\nrules:\n  keep_clear: on\n  light_ahead: off\nmeasure: {steady: 300 s}\n");
+    const Scenario s =
+        load("network: {kind: grid}\nrules:\n  keep_clear: on\n  light_ahead: off\nmeasure: {steady: 300 s}\n");
     EXPECT_EQ(s.rules.count_queue_at_red_exit, "off");
     EXPECT_EQ(s.measure.window_s, 300.0);
     EXPECT_EQ(s.warnings,
@@ -34,7 +36,7 @@ TEST(FieldAlias, OldNamesInAFileGiveAWarningWithTheirPlace) {
 
 TEST(FieldAlias, CurrentNamesGiveNoWarning) {
     EXPECT_TRUE(load("rules: {keep_clear: on, count_queue_at_red_exit: off}\n").warnings.empty());
-    EXPECT_TRUE(load("title: x\n", {"measure.window=300 s"}).warnings.empty());
+    EXPECT_TRUE(load(kGrid, {"measure.window=300 s"}).warnings.empty());
     for (const auto& entry : std::filesystem::directory_iterator(shipped("scenarios"))) {
         if (entry.path().extension() != ".yaml") continue;
         EXPECT_EQ(load_scenario(entry.path()).warnings, Lines{}) << entry.path();
@@ -50,13 +52,13 @@ TEST(FieldAlias, CurrentNamesGiveNoWarning) {
 }
 
 TEST(FieldAlias, OldAndNewNamesMeanTheSame) {
-    EXPECT_EQ(canonical_text(load("measure: {steady: 300 s, outside: 5 m}\n")),
-              canonical_text(load("measure: {window: 300 s, area_margin: 5 m}\n")));
+    EXPECT_EQ(canonical_text(load(kGrid + std::string("measure: {steady: 300 s, outside: 5 m}\n"))),
+              canonical_text(load(kGrid + std::string("measure: {window: 300 s, area_margin: 5 m}\n"))));
 }
 
 TEST(FieldAlias, WorksInOverrides) {
-    const Scenario s =
-        load("measure: {window: 100 s}\n", {"measure.steady=300 s", "rules={keep_clear: on, light_ahead: off}"});
+    const Scenario s = load(kGrid + std::string("measure: {window: 100 s}\n"),
+                            {"measure.steady=300 s", "rules={keep_clear: on, light_ahead: off}"});
     EXPECT_EQ(s.measure.window_s, 300.0);
     EXPECT_EQ(s.rules.count_queue_at_red_exit, "off");
     EXPECT_EQ(s.warnings, (Lines{std::string("--set 'measure.steady=300 s': field 'measure.steady' is now called "
@@ -68,17 +70,17 @@ TEST(FieldAlias, WorksInOverrides) {
 }
 
 TEST(FieldAlias, OverridesReachFieldsGivenByTheirOldNames) {
-    const Scenario s = load("measure: {steady: 100 s}\n", {"measure.window=300 s"});
+    const Scenario s = load(kGrid + std::string("measure: {steady: 100 s}\n"), {"measure.window=300 s"});
     EXPECT_EQ(s.measure.window_s, 300.0);
     EXPECT_EQ(s.warnings.size(), 1u);
 }
 
 TEST(FieldAlias, OldAndNewNameTogetherAreRefused) {
-    EXPECT_EQ(error_of("measure:\n  window: 300 s\n  steady: 300 s\n"),
-              "test.yaml:3:3: field 'measure.steady' is the old name of 'measure.window', which is given too: keep the "
+    EXPECT_EQ(error_of("network: {kind: grid}\nmeasure:\n  window: 300 s\n  steady: 300 s\n"),
+              "test.yaml:4:3: field 'measure.steady' is the old name of 'measure.window', which is given too: keep the "
               "new name only");
-    EXPECT_EQ(error_of("measure:\n  steady: 300 s\n  window: 300 s\n"),
-              "test.yaml:2:3: field 'measure.steady' is the old name of 'measure.window', which is given too: keep the "
+    EXPECT_EQ(error_of("network: {kind: grid}\nmeasure:\n  steady: 300 s\n  window: 300 s\n"),
+              "test.yaml:3:3: field 'measure.steady' is the old name of 'measure.window', which is given too: keep the "
               "new name only");
     EXPECT_TRUE(contains(error_of("title: x\n", {"measure.steady=300 s", "measure.window=200 s"}),
                          "--set 'measure.window=200 s': field 'measure.steady' is the old name of 'measure.window'"));

@@ -138,7 +138,7 @@ TEST(JsonSchema, AgreesWithTheReader) {
          {"{}", R"({"step": "10 ms", "signal": {"green": "15 s"}, "seed": 7})",
           R"({"vehicle": "petrol_eu4_72kw", "driver": {"base": "startup_kit", "cacc": {"v2v_delay": "20 ms"}}})",
           R"({"vehicle": {"base": "petrol_eu4_72kw", "full_load": {"0 rpm": "90 N m", "7000 rpm": "80 N m"}}})",
-          R"({"populations": ["CDG", {"name": "A", "components": [{"policy": "CDG", "share": 0.5}]}]})",
+          R"({"populations": ["CDG", {"name": "A", "components": [{"policy": "CDG", "share": "50 %"}]}]})",
           R"({"measure": {"green": ["5 s", "10 s"], "baseline": "CDG"}})"}) {
         EXPECT_EQ(violation_of(good), "") << good;
     }
@@ -148,7 +148,7 @@ TEST(JsonSchema, AgreesWithTheReader) {
           R"({"signal": {"gren": "15 s"}})", R"({"vehicle": {"mass": "1 t"}})",
           R"({"vehicle": {"base": "x", "full_load": {"0 m": "90 N m"}}})", R"({"populations": []})",
           R"({"populations": [{"name": "A"}]})", R"({"measure": {"green": [5]}})",
-          R"({"populations": [{"name": "A", "components": [{"policy": "CDG", "share": 1.5}]}]})"}) {
+          R"({"populations": [{"name": "A", "components": [{"policy": "CDG", "share": 0.5}]}]})"}) {
         EXPECT_NE(violation_of(bad), "") << bad;
     }
 }

@@ -105,7 +105,7 @@ driver:
 policies:
 - {name: P, law: switch_distance, standstill_gap: 3 m, switch_speed: 18 km/h, reference_speed: 54 km/h, reference_gap: 9 m}
 - {name: Q, law: switch_time_gap, standstill_gap: 4 m, switch_speed: 36 km/h, time_gap: 0.7 s}
-populations: [P, {name: R, pattern: random, components: [{policy: P, share: 0.25}, {policy: Q, share: 75 %}]}]
+populations: [P, {name: R, pattern: random, components: [{policy: P, share: 25 %}, {policy: Q, share: 75 %}]}]
 measure: {green: [5 s, 20 s], baseline: R}
 )",
                                       "t.yaml");
@@ -178,7 +178,8 @@ TEST(LoadScenario, ErrorsNamePlaceFieldValueAndRemedy) {
     EXPECT_EQ(error_of("demand:\n  left: 5\n"),
               "test.yaml:2:9: field 'demand.left': value '5' has no unit: write e.g. '5 %' (allowed: 0 % to 100 %)");
     EXPECT_TRUE(contains(error_of("demand:\n  left: 500 %\n"), "value '500 %' is out of range"));
-    EXPECT_TRUE(contains(error_of("demand:\n  left: -1\n"), "value '-1' is out of range"));
+    EXPECT_TRUE(contains(error_of("demand:\n  left: -1 %\n"), "value '-1 %' is out of range"));
+    EXPECT_TRUE(contains(error_of("demand:\n  left: 1\n"), "value '1' has no unit: write '1 %' or '100 %', whichever"));
     EXPECT_EQ(error_of("signal:\n  green: -15 s\n"),
               "test.yaml:2:10: field 'signal.green': value '-15 s' is out of range (allowed: 0.1 s to 7200 s)");
     EXPECT_EQ(
@@ -194,6 +195,51 @@ TEST(LoadScenario, ErrorsNamePlaceFieldValueAndRemedy) {
     EXPECT_TRUE(contains(error_of("populations: [CGD]\n"),
                          "test.yaml:1:15: field 'populations[CGD].components[0].policy': "
                          "there is no policy 'CGD'; did you mean 'CDG'?"));
+}
+
+TEST(LoadScenario, SuggestsTheWholePathOfAField) {
+    const auto error_for = [](const std::string& text) { return error_of(kSmall, {text}); };
+    for (const char* written : {"hesitation=1 s", "driver.hesitation=1 s", "signal.hesitation=1 s"}) {
+        EXPECT_TRUE(contains(error_for(written), "is unknown; did you mean 'driver.free_drive.hesitation'? Known: "));
+    }
+    EXPECT_TRUE(
+        contains(error_for("time_gap=1 s"),
+                 "'time_gap' is unknown; did you mean 'driver.platoon.time_gap' or 'policies[NAME].time_gap'?"));
+    EXPECT_TRUE(contains(error_for("policies.CTG-Ref.time_gap=1 s"),
+                         "field 'policies' is a list: name its entry in brackets, as in 'policies[CTG-Ref].time_gap'"));
+    EXPECT_TRUE(contains(error_for("policies.time_gap=1 s"), "as in 'policies[NAME].time_gap'"));
+    EXPECT_TRUE(contains(error_of("hesitation: 1 s\n"), "did you mean 'driver.free_drive.hesitation'?"));
+    EXPECT_TRUE(contains(error_of("driver: {base: startup_kit, hesitation: 1 s}\n"),
+                         "field 'driver.hesitation' is unknown; did you mean 'driver.free_drive.hesitation'?"));
+    EXPECT_TRUE(contains(error_of("green: 5 s\n"),
+                         "did you mean 'signal.green' or 'measure.green' or 'signal.phases[0].green'?"));
+}
+
+TEST(LoadScenario, NamesTheBaseIfASectionIsIncomplete) {
+    const std::string error = error_of("vehicle: {mass: 1700 kg}\n");
+    EXPECT_EQ(lines_of(error), 1u);
+    EXPECT_TRUE(contains(error,
+                         "test.yaml:1:10: field 'vehicle': 22 fields are missing: add 'base: NAME' to take them "
+                         "from a file of data/vehicles, or give all of them (length, "));
+    EXPECT_EQ(error_of("vehicle: {base: petrol_eu4_72kw, mass: 1700 kg}\n"), "");
+}
+
+TEST(LoadScenario, ReadsMovementsInAnyOrder) {
+    const auto hash = [](const std::string& movements) {
+        return parse_scenario(
+                   "network: {kind: intersection, intersection: {lanes: [{movements: " + movements + "}]}}\n", "x.yaml")
+            .hash;
+    };
+    EXPECT_EQ(hash("left+straight"), hash("straight+left"));
+    for (const char* written : {"left+straight+right", "right+left+straight", "left+right+straight"}) {
+        EXPECT_EQ(hash(written), hash("straight+left+right")) << written;
+    }
+    const auto error = [](const std::string& movements) {
+        return error_of("network: {kind: intersection, intersection: {lanes: [{movements: " + movements + "}]}}\n");
+    };
+    EXPECT_TRUE(contains(error("left+left"), "value 'left+left' is unknown"));
+    EXPECT_TRUE(contains(error("left+"), "value 'left+' is unknown"));
+    EXPECT_TRUE(contains(error("left+straigth"), "value 'left+straigth' is unknown"));
 }
 
 TEST(LoadScenario, ReportsAllErrorsInTheOrderOfTheFile) {
@@ -219,6 +265,9 @@ TEST(LoadScenario, RefusesFilesWithoutFields) {
         EXPECT_TRUE(contains(error_of(text), "needs 'field: value' lines")) << text;
     }
     EXPECT_NE(input_error_of([] { load_scenario("/nonexistent/x.yaml"); }), "");
+    EXPECT_TRUE(contains(
+        input_error_of([] { load_scenario(shipped("scenarios/gird.yaml")); }),
+        "scenarios/gird.yaml: no such file; did you mean '" + shipped("scenarios/grid.yaml").generic_string() + "'?"));
     EXPECT_NE(input_error_of([] { load_scenario(""); }), "");
 }
 
@@ -293,7 +342,7 @@ TEST(Overrides, ReachAllFieldsAndEntries) {
 }
 
 TEST(Overrides, ReachEntriesWithADotInTheirName) {
-    const Scenario s = parse_scenario("populations: [{name: a.b, components: [{policy: CDG, share: 1}]}]\n", "x",
+    const Scenario s = parse_scenario("populations: [{name: a.b, components: [{policy: CDG, share: 100 %}]}]\n", "x",
                                       {"populations[a.b].pattern=random"});
     EXPECT_EQ(s.populations[0].pattern, PopulationSettings::Pattern::random);
 }
@@ -309,7 +358,9 @@ TEST(Overrides, ErrorsNameTheOverride) {
     EXPECT_TRUE(contains(error_for("signal.green.x=1 s"), "has no field 'x' inside"));
     EXPECT_TRUE(contains(error_for("populations[99].name=x"), "has no entry [99]"));
     EXPECT_TRUE(contains(error_for("populations[].name=x"), "has no entry []"));
-    EXPECT_TRUE(contains(error_for("policies[XYZ].time_gap=1 s"), "has no entry [XYZ]"));
+    EXPECT_TRUE(contains(error_for("policies[XYZ].time_gap=1 s"), "has no entry [XYZ]; it has the entries 0 to "));
+    EXPECT_TRUE(contains(error_for("policies[CTG-Reff].time_gap=1 s"),
+                         "field 'policies' has no entry [CTG-Reff]; did you mean 'CTG-Ref'? It has the entries 0 to "));
     EXPECT_TRUE(contains(error_for("measure.green[0]=1 s"), "has no entry [0]"));
     EXPECT_TRUE(contains(error_for("populations[0][1].name=x"), "has no entry"));
     EXPECT_TRUE(
@@ -325,6 +376,14 @@ TEST(Overrides, ErrorsNameTheOverride) {
                              "measure.green[0].x=1 s", "vehicle[0]=1"}) {
         EXPECT_NE(error_for(text), "") << text;
     }
+}
+
+TEST(Overrides, ErrorsOfAWholeSectionNameTheOverride) {
+    const std::string sumo = "network: {kind: sumo, net: a.net.xml, routes: a.rou.xml}\n";
+    EXPECT_TRUE(contains(error_of(sumo, {"signal.green=20 s"}),
+                         "--set 'signal.green=20 s': field 'signal' applies only if network.kind is "));
+    EXPECT_TRUE(contains(error_of(sumo + "signal: {green: 20 s}\n", {"signal.yellow=3 s"}),
+                         "test.yaml:2:9: field 'signal' applies only if network.kind is "));
 }
 
 TEST(DataFiles, AreFoundByNameOrPath) {

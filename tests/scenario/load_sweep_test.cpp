@@ -48,6 +48,11 @@ TEST(LoadSweep, ErrorsNamePlaceFieldAndAllowedValues) {
         contains(axis_error("{name: a, path: signal.gren, values: [5 s]}"),
                  "test.yaml:3:19: field 'axes[a].path[0]': field 'signal.gren' is unknown; did you mean 'green'?"));
     EXPECT_TRUE(contains(axis_error("{name: a, path: signal.green.x, values: [5 s]}"), "has no field 'x' inside"));
+    EXPECT_TRUE(contains(axis_error("{name: a, path: time_gap, values: [5 s]}"), "' or 'policies[NAME].time_gap'?"));
+    EXPECT_TRUE(contains(axis_error("{name: a, path: policies.CTG-Ref.time_gap, values: [1 s]}"),
+                         "is a list: name its entry in brackets, as in 'policies[CTG-Ref].time_gap'"));
+    EXPECT_TRUE(
+        contains(sweep_error("title: \"x\nscenario: a.yaml\n"), "test.yaml:1:8: this text begins with the quote"));
     EXPECT_TRUE(contains(axis_error("{name: a, path: signal.green, values: [5 s, 6]}"),
                          "test.yaml:3:47: field 'axes[a]: signal.green': value '6' has no unit"));
     EXPECT_TRUE(contains(axis_error("{name: a, path: signal.green, values: []}"), "has 0 entries"));
@@ -74,6 +79,10 @@ TEST(LoadSweep, ErrorsNameThePlaceOfAMissingScenario) {
     EXPECT_TRUE(contains(both, "test.yaml:1:11: field 'scenario': value 'none.yaml' leads to none.yaml: no such file"));
     EXPECT_TRUE(contains(both, "test.yaml:3:42: field 'axes[a]: signal.green': value '5' has no unit"));
     EXPECT_TRUE(contains(sweep_error("scenario: ..\n"), "field 'scenario': value '..' leads to ..: is a directory"));
+    folder.write("rete.yaml", "name: x\n");
+    EXPECT_TRUE(
+        contains(input_error_of([&] { load_sweep(file); }),
+                 "no such file; did you mean '" + (folder.path() / "rete.yaml").string() + "'? (relative paths start"));
     folder.write("rte.yaml", "name: x\n");
     EXPECT_EQ(input_error_of([&] { load_sweep(file); }), "");
 }

@@ -68,8 +68,6 @@ TEST(MeasuredArea, EndsWithinTheNetwork) {
     EXPECT_TRUE(contains(
         error_of(streets, {"measure.area_margin=101 m"}),
         "at most 100 m, the value of network.streets.intersections[koenigin_elisabeth_str].legs[0].exit_length"));
-    // A single intersection has zones instead of a measured area, so the margin of the area has no effect there.
-    EXPECT_EQ(error_for_kind("intersection", {"measure.area_margin=500 m"}), "");
 }
 
 TEST(Cycle, OfAnIntersectionFollowsFromItsStages) {

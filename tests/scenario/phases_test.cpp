@@ -72,8 +72,8 @@ TEST(SignalPhases, EveryMovementNeedsGreen) {
 
 TEST(SignalPhases, NamesOfMovementsMustExist) {
     EXPECT_TRUE(contains(error_of_signal(four_phases() + "  - {protected: [west_lef], green: 8 s}\n"),
-                         "test.yaml:12:18: field 'signal.phases[4].protected[0]': there is no movement 'west_lef' "
-                         "(movements of this intersection: west_straight, west_right, west_left, south_straight"));
+                         "test.yaml:12:18: field 'signal.phases[4].protected[0]': there is no movement 'west_lef'"
+                         "; did you mean 'west_left'? Known: west_straight, west_right, west_left, south_straight"));
     EXPECT_TRUE(
         contains(error_of_signal(four_phases() + "  - {protected: west_left, permissive: west_left, green: 8 s}\n"),
                  "the phase names the movement west_left twice"));

@@ -46,7 +46,7 @@ TEST(Quantity, ConvertsToSi) {
     EXPECT_EQ(si("5e-5 s/m", "s/m"), 5e-5);
     EXPECT_EQ(si("600 veh/h", "veh/h"), 600.0 / 3600.0);
     EXPECT_EQ(si("30 %", "%"), 0.3);
-    EXPECT_EQ(si("0.3", "%"), 0.3);
+    EXPECT_EQ(si("0.3 fraction", "%"), 0.3);
     EXPECT_EQ(si("0.3", ""), 0.3);
 }
 
@@ -64,7 +64,7 @@ TEST(Quantity, AcceptsCommonSpellings) {
 }
 
 TEST(Quantity, RefusesWrongOrMissingUnits) {
-    EXPECT_EQ(problem("15", "s"), "has no unit");
+    EXPECT_EQ(problem("15", "s"), "has no unit: write e.g. '15 s'");
     EXPECT_EQ(problem("15 s", ""), "has a unit, but is a plain number");
     EXPECT_EQ(problem("15 m", "s"), "is a length (unit 'm'), but a time is needed");
     EXPECT_EQ(problem("15 kmh", "km/h"), "has the unknown unit 'kmh' (known here: m/s, km/h)");
@@ -73,6 +73,28 @@ TEST(Quantity, RefusesWrongOrMissingUnits) {
     EXPECT_EQ(problem("1,5 s", "s"), "has a comma: write a decimal point, and no thousands separators");
     EXPECT_EQ(problem("15 s s", "s"), "has the unknown unit 's s' (known here: s, ms, min, h)");
     EXPECT_EQ(problem("1 000 m", "m"), "has the unknown unit '000 m' (known here: m, cm, mm, km)");
+}
+
+TEST(Quantity, RefusesPercentagesWithoutUnit) {
+    EXPECT_EQ(problem("1", "%"), "has no unit: write '1 %' or '100 %', whichever is meant");
+    EXPECT_EQ(problem("0.07", "%"), "has no unit: write '0.07 %' or '7 %', whichever is meant");
+    EXPECT_EQ(problem("10", "%"), "has no unit: write e.g. '10 %'");
+    EXPECT_EQ(problem("0", "%"), "has no unit: write e.g. '0 %'");
+    EXPECT_EQ(problem("-2", "%"), "has no unit: write e.g. '-2 %'");
+    EXPECT_EQ(problem("5 per cent", "%"), "has the unknown unit 'per cent' (known here: %, fraction)");
+}
+
+// Not every number is a hundredth of another one. Such a percentage is written as a fraction.
+TEST(Quantity, ExactTextOfAPercentageHasAUnit) {
+    std::mt19937_64 random(11);
+    std::uniform_real_distribution<double> share(0.0, 2.0);
+    int fractions = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const std::string text = exact_text(share(random), unit("%"));
+        EXPECT_TRUE(text.ends_with(" %") || text.ends_with(" fraction")) << text;
+        if (text.ends_with(" fraction")) ++fractions;
+    }
+    EXPECT_GT(fractions, 0);
 }
 
 TEST(Quantity, RefusesNonNumbers) {
@@ -131,14 +153,14 @@ TEST(Quantity, EverySpellingIsUniqueAndMatchesThePattern) {
         EXPECT_TRUE(spellings.insert(candidate.text).second) << candidate.text;
         EXPECT_EQ(&unit(candidate.text), &candidate);
         EXPECT_FALSE(name_of(candidate.dimension).empty());
-        const std::regex pattern(quantity_pattern(candidate.dimension));
+        const std::regex pattern(quantity_pattern(candidate));
         for (const char* number : {"1", "-2.5", ".5", "5.", "1e-3"}) {
             const std::string text = std::string(number) + " " + std::string(candidate.text);
             EXPECT_TRUE(std::regex_match(text, pattern)) << text;
             EXPECT_EQ(parse_quantity(text, candidate).problem, "") << text;
         }
         EXPECT_FALSE(std::regex_match("5 parsec", pattern));
-        EXPECT_EQ(std::regex_match("5", pattern), candidate.dimension == Dimension::number);
+        EXPECT_EQ(std::regex_match("5", pattern), candidate.text.empty());
     }
     EXPECT_THROW(unit("parsec"), std::logic_error);
 }

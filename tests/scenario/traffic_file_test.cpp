@@ -74,6 +74,12 @@ TEST(TrafficFile, NeedsItsColumns) {
     EXPECT_TRUE(contains(traffic_error("od", kCountsHeader), "unknown column 'approach'"));
 }
 
+TEST(TrafficFile, NeedsCommas) {
+    EXPECT_TRUE(contains(traffic_error("counts", "begin;end;approach;vehicles\n0;60;c0r0_west;9\n"),
+                         "traffic.csv:1: semicolons separate the columns: use commas instead"));
+    EXPECT_TRUE(contains(traffic_error("counts", "begin;end;approach;vehicles\n0,0;60;c0r0_west;9\n"), "use commas"));
+}
+
 TEST(TrafficFile, NeedsTurnsThatExistAndSumUp) {
     EXPECT_TRUE(contains(counts_error("0,60,c0r0_west,9,0,6,2\n"),
                          "traffic.csv:2:16: vehicles: value 9 is not left + straight + right = 8"));

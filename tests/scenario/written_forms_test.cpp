@@ -49,7 +49,7 @@ TEST(Hash, DependsOnContentNotOnSpelling) {
     EXPECT_EQ(hash("step: 10 ms\nduration: 200 s\n"), hash("# comment\nduration: 0.2e3 s\n"));
     EXPECT_EQ(hash("demand: {entry_speed: 36 km/h}\n"), hash("demand: {entry_speed: 10 m/s}\n"));
     EXPECT_EQ(hash("populations: [CDG]\n"),
-              hash("populations: [{components: [{share: 1, policy: CDG}], pattern: alternating, name: CDG}]\n"));
+              hash("populations: [{components: [{share: 100 %, policy: CDG}], pattern: alternating, name: CDG}]\n"));
     EXPECT_NE(hash("duration: 200 s\n"), hash("duration: 210 s\n"));
     EXPECT_NE(hash("populations: [CDG, CTG-Ref]\n"), hash("populations: [CTG-Ref, CDG]\n"));
     EXPECT_NE(hash("vehicle: petrol_eu4_72kw\n"), hash("vehicle: petrol_eu4_84kw\n"));

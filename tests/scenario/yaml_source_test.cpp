@@ -53,6 +53,51 @@ TEST(YamlSource, RefusesUnsupportedYaml) {
     EXPECT_TRUE(contains(refusal("\ta: 1\n"), "not valid YAML"));
 }
 
+// yaml-cpp reads such a text up to the end of the file, so that the fields below it would be lost.
+TEST(YamlSource, RefusesQuotesWithoutEnd) {
+    const std::string double_quote = "this text begins with the quote \" but has no closing quote";
+    const std::string single_quote = "this text begins with the quote ' but has no closing quote";
+    for (const char* end : {"", "\n", "\n\n\n", "\n   ", "\r\n"}) {
+        EXPECT_TRUE(contains(refusal(std::string("title: \"abc\nseed: 5") + end), "test.yaml:1:8: " + double_quote));
+        EXPECT_TRUE(contains(refusal(std::string("a: 1\ntitle: 'abc\nb: 5") + end), "test.yaml:2:8: " + single_quote));
+    }
+    EXPECT_TRUE(contains(refusal("a:\n- x\n- 'y\nb: 1\n"), "test.yaml:3:3: " + single_quote));
+    EXPECT_TRUE(contains(refusal("a: {t: \"abc}\nb: 1\n"), "test.yaml:1:8: " + double_quote));
+    EXPECT_TRUE(contains(refusal("a: [x, 'abc]\nb: 2\n"), "test.yaml:1:8: " + single_quote));
+    EXPECT_TRUE(contains(refusal("a: 1\n\"b: 2\nc: 3\n"), "test.yaml:2:1: " + double_quote));
+    EXPECT_TRUE(contains(refusal("a: &x \"abc\nb: *x\n"), "test.yaml:1:7: " + double_quote));
+    EXPECT_TRUE(contains(refusal("a: \"x\\\"\nb: 1\n"), "test.yaml:1:4: " + double_quote));
+    EXPECT_TRUE(contains(refusal("a: 'x''\nb: 1\n"), "test.yaml:1:4: " + single_quote));
+    EXPECT_TRUE(contains(refusal("\xef\xbb\xbf\"a: 1\n"), "test.yaml:1:1: " + double_quote));
+    EXPECT_TRUE(contains(refusal("a: \"x\nb: 1\nc: \"y\"\n"),
+                         "The text in quotes before this place begins in line 1, column 4: is its closing quote"));
+}
+
+TEST(YamlSource, AcceptsTextsWithQuotes) {
+    EXPECT_EQ(parse("a: it's \"so\"\n").find("a")->text, "it's \"so\"");
+    EXPECT_EQ(parse("a: 'it''s'  # don't\nb: 1\n").find("a")->text, "it's");
+    EXPECT_EQ(parse("a: \"x \\\" y\"\n").find("a")->text, "x \" y");
+    EXPECT_EQ(parse("a: \"x\n  y\"\nb: 1\n").find("a")->text, "x y");
+    EXPECT_EQ(parse("a: &x 'y'\nb: *x\n").find("b")->text, "y");
+    EXPECT_EQ(parse("a: ! it's\nb: 1\n").find("a")->text, "it's");
+    EXPECT_EQ(parse("{'a': \"\", \"b\": ''}").find("b")->text, "");
+    EXPECT_EQ(parse("a: he said\n  'hello\nb: 1\n").find("a")->text, "he said 'hello");
+}
+
+TEST(YamlSource, NamesTheUsualCausesOfMalformedText) {
+    for (const char* tab : {"a:\n\tb: 1\n", "\ta: 1\n", "a: 1\n\tb: 2\n"}) {
+        EXPECT_TRUE(contains(refusal(tab), "the line begins with a tab; use spaces")) << tab;
+    }
+    for (const char* slip : {"a: b: c\n", "a: 1\n  b: 2\n", "a:\n  b: 1\n c: 2\n", "a 5\nb: 3\n"}) {
+        EXPECT_TRUE(contains(refusal(slip), "a line that does not begin in the same column")) << slip;
+        EXPECT_TRUE(contains(refusal(slip), "a tab at the start of a line")) << slip;
+        EXPECT_TRUE(contains(refusal(slip), "a ': ' in a text without quotes")) << slip;
+    }
+    EXPECT_TRUE(contains(refusal("a: [1, 2\nb: 3\n"), "a closing ']' is missing"));
+    EXPECT_TRUE(contains(refusal("a: {b: 1\nc: 2\n"), "a closing '}' is missing"));
+    EXPECT_TRUE(contains(refusal("a: @b\n"), "a text that begins with this sign needs quotes"));
+}
+
 TEST(YamlSource, RefusesInvalidUtf8) {
     EXPECT_TRUE(
         contains(refusal(std::string("a: 1\nb: x\0y\n", 12)), "test.yaml:2:5: not a YAML text in UTF-8 (byte 0x00)"));

@@ -196,7 +196,10 @@ def run(options, folder, number):
     file.write_text(json.dumps(scenario(options.kind, number, folder, options.fleet), indent=1))
     failed = []
     for fidelity in options.fidelity or ["meso", "full"]:
-        text = problem(options.bin, file, [f"fidelity={fidelity}", *options.set], folder / f"{options.kind}_{number}_{fidelity}")
+        settings = [f"fidelity={fidelity}", *options.set]
+        if options.kind == "light" and fidelity == "meso":
+            settings.append("network.approach.gradient=0 %")  # only full dynamics has slopes
+        text = problem(options.bin, file, settings, folder / f"{options.kind}_{number}_{fidelity}")
         if text:
             failed.append(f"{options.kind} {number}, {fidelity}: {text}")
     return failed

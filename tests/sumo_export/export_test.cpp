@@ -42,6 +42,12 @@ TEST(Export, WritesAllFilesAndNothingElse) {
                                         "nodes.nod.xml", "run.sumocfg", "vehicles.rou.xml"}));
 }
 
+TEST(Export, NamesTheMostSimilarPopulation) {
+    EXPECT_EQ(population_index(small_grid("populations=[CDG, CTG-Ref]"), "CTG-Ref"), 1U);
+    EXPECT_EQ(input_error_of([] { population_index(small_grid("populations=[CDG, CTG-Ref]"), "CDGX"); }),
+              "there is no population 'CDGX'; did you mean 'CDG'? Known: CDG, CTG-Ref");
+}
+
 TEST(Export, TranslatesTheTrafficRules) {
     const TemporaryFolder folder;
     const auto configuration = [&](const std::string& rules) {

@@ -164,6 +164,12 @@ TEST(Sweep, NamesThePlaceOfTheValueThatCausesAnError) {
 
 TEST(Sweep, RefusesInvalidAxes) {
     EXPECT_TRUE(contains(error_of_sweep("axes:\n- {name: p, populations: [CDG, CTG]}\n"), "no population 'CTG'"));
+    EXPECT_TRUE(contains(error_of_sweep("axes:\n- {name: p, populations: [CDG, all]}\n"),
+                         "sweep.yaml:3:32: the sweep sweep: the scenario short has no population 'all'; to run all "
+                         "populations, write 'populations: all' without other names"));
+    EXPECT_TRUE(contains(error_of_sweep("axes:\n- {name: p, populations: [CDG, CTG-HBS]}\n"),
+                         "has no population 'CTG-HBS', but a policy of this name: add it to the field 'populations' of "
+                         "the scenario (known: CDG, "));
     EXPECT_TRUE(contains(error_of_sweep("axes:\n- {name: g, path: signal.green, values: [60 s, 1 min]}\n"),
                          "sweep.yaml:3:48: field 'axes[g].values[1]': '1 min' is the same value as '60 s'"));
     EXPECT_TRUE(contains(error_of_sweep("axes:\n- {name: g, path: [signal.yellow, signal.all_red], values: [3 s | 1 s, "

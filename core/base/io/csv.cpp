@@ -101,6 +101,10 @@ CsvTable parse_csv(std::string_view text, const std::string& label) {
     CsvReader reader(text, label);
     if (reader.at_end()) throw InputError(fmt::format("{}: the file is empty", label));
     table.columns = reader.read_record();
+    if (table.columns.size() == 1 && table.columns.front().find(';') != std::string::npos) {
+        throw InputError(fmt::format(
+            "{}:1: semicolons separate the columns: use commas instead, and decimal points in numbers", label));
+    }
     while (!reader.at_end()) {
         const int line = reader.line();
         std::vector<std::string> fields = reader.read_record();

@@ -186,14 +186,16 @@ private:
     }
 
     void check_width(const Leg& leg) {
+        const char* const field = leg.side % 2 == 0 ? "median" : "minor_median";
         const double median_m = leg.side % 2 == 0 ? s_.median_m : s_.minor_median_m;
         const auto lanes = static_cast<int>(leg.settings.lanes.size());
         const int left = StreetLayout::left_pockets(leg.settings);
         if (left * s_.lane_width_m > median_m + kTolerance) {
             add_problem(
                 leg.field + ".lanes",
-                fmt::format("pockets on the left lie in the median, but {} of {:g} m do not fit into its {:g} m", left,
-                            s_.lane_width_m, median_m));
+                fmt::format("pockets on the left lie in the median: {} of {:g} m do not fit into the {:g} m of {}; set "
+                            "{} to at least {:g} m, or move the pockets to the right",
+                            left, s_.lane_width_m, median_m, field, field, left * s_.lane_width_m));
         }
         const bool crossed = std::any_of(kTurns.begin(), kTurns.end(), [&](Turn turn) {
             return turn != Turn::straight && layout_.leg(leg.node, exit_side(leg.side, turn)) != nullptr;

@@ -60,7 +60,7 @@ JobOutput run_calibration_bands_job(const JobContext& context) {
     const SweepRuns meso =
         run_sweep(context.scorecard(), "intersection.yaml", {"fidelity=meso", std::string("meso=") + kCalibratedMeso},
                   "bands_meso", run_metrics, {1.0, 1.0});
-    const BandCheck check = check_bands(full.sweep, full.store, meso.store, band_metrics(full.store, {}));
+    const BandCheck check = check_bands(full.sweep, full.store, meso.store, band_metrics(full.sweep, {}));
     writer.conditions_of(full.sweep);
     writer.condition("Compared with", std::string("the mesoscale mode with the parameters ") + kCalibratedMeso);
     writer.command(std::string("stopline-calibrate --step II --parameters ") + kCalibratedMeso);

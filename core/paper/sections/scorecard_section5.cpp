@@ -61,7 +61,7 @@ Measurements measure_bands(const Scenario& /*scenario*/, const ScorecardOptions&
     const SweepRuns full = run_sweep(options, kSweep, {"fidelity=full"}, "bands_full", run_metrics, {0.0, 0.85});
     const SweepRuns meso = run_sweep(options, kSweep, {"fidelity=meso", std::string("meso=") + kCalibratedMeso},
                                      "bands_meso", run_metrics, {0.85, 1.0});
-    const BandCheck check = check_bands(full.sweep, full.store, meso.store, band_metrics(full.store, {}));
+    const BandCheck check = check_bands(full.sweep, full.store, meso.store, band_metrics(full.sweep, {}));
     Measurements measured;
     for (const MetricBands& metric : check.metrics) {
         measured.set("inside " + metric.metric, 100.0 * metric.share_inside(Band::paper));

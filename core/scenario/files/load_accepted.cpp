@@ -36,6 +36,11 @@ AcceptedFile load_accepted(const std::filesystem::path& file) {
     AcceptedFile accepted;
     read_fields(accepted_table(), read_yaml_file(file), "", &accepted, report);
     report.throw_if_any();
+    for (std::size_t i = 0; i < accepted.accepted.size(); ++i) {
+        const std::string entry = "accepted[" + std::to_string(i) + "]";
+        accepted.accepted[i].permutation_place = to_string(report.place_of(entry + ".permutation"));
+        accepted.accepted[i].detector_place = to_string(report.place_of(entry + ".detector"));
+    }
     return accepted;
 }
 

@@ -18,6 +18,9 @@ struct AcceptedDifference {
     std::string permutation;  // axis values, as text in the report of stopline-calibrate
     std::string detector;     // name of the detector in this report
     std::string reason;       // reason why the difference is accepted
+    // Positions in the file of the permutation and of the detector, "file:line:column".
+    std::string permutation_place = {};
+    std::string detector_place = {};
 };
 
 struct AcceptedFile {

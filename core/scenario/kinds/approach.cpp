@@ -18,7 +18,8 @@ const Table& approach_table() {
             number<&ApproachSettings::exit_length_m>("exit_length", "m", {10, 20'000},
                                                      "distance from the stop line to the end of the road"),
             number<&ApproachSettings::speed_limit_mps>("speed_limit", "km/h", {5, 150}, "speed limit"),
-            number<&ApproachSettings::gradient>("gradient", "%", {-20, 20}, "slope, positive uphill"),
+            number<&ApproachSettings::gradient>("gradient", "%", {-20, 20},
+                                                "slope, positive uphill; only with fidelity: full"),
         });
     return table;
 }
@@ -42,12 +43,33 @@ std::vector<OuterLeg> approach_legs(const NetworkSettings& network) {
              road.exit_length_m}};
 }
 
+// Reports fields of the section `signal` that have no effect on a single light.
+void refuse_signal_times(const Scenario& scenario, Checker& check) {
+    refuse_offset(scenario, check);
+    if (scenario.signal.cross_green_s != 0.0) {
+        check.error("signal.cross_green",
+                    "is for intersections and grids only: a straight road has no crossing street");
+    }
+    if (scenario.signal.clock_s != 0.0) {
+        check.error("signal.clock", "is for intersections and grids only: it has no effect without signal.programmes");
+    }
+}
+
+// Only full dynamics has slopes. The mesoscale mode would drive uphill as on a level road.
+void refuse_gradient_in_meso(const Scenario& scenario, Checker& check) {
+    if (!scenario.is_meso() || scenario.network.approach.gradient == 0.0) return;
+    check.error("network.approach.gradient", "has no effect in the mesoscale mode; use fidelity: full, or set 0 %");
+}
+
 void check_approach(const Scenario& scenario, Checker& check) {
+    refuse_gradient_in_meso(scenario, check);
     refuse_cross_inflow(scenario, check);
     refuse_turns(scenario.demand, "a straight road", check);
     refuse_phases(scenario, "a straight road", check);
     check_signal_steps(scenario, check);
+    refuse_signal_times(scenario, check);
     check_green_times(scenario, check);
+    check_first_green(scenario, check);
     check_queue(scenario, check);
 }
 

@@ -69,7 +69,7 @@ void check_grid(const Scenario& scenario, Checker& check) {
     refuse_cycle(scenario, check);
     check_signal_steps(scenario, check);
     check_phases(scenario, check);
-    check_green_times(scenario, check);
+    check_first_green(scenario, check);
     check_grid_links(scenario, check);
 }
 

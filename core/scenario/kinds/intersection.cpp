@@ -20,7 +20,8 @@ const Table& lane_movements_table() {
     using L = IntersectionSettings::LaneMovements;
     static const Table table = make_table<L>(
         "a lane of an approach",
-        {choice<&L::movements>("movements", lane_movements(), "movements that the lane allows").required()});
+        {choice<&L::movements>("movements", lane_movements(), "movements that the lane allows, in any order")
+             .required()});
     return table;
 }
 
@@ -109,6 +110,7 @@ void check_zones(const Scenario& scenario, Checker& check) {
 void check_intersection(const Scenario& scenario, Checker& check) {
     check_turn_shares(scenario, check);
     refuse_cycle(scenario, check);
+    refuse_offset(scenario, check);
     check_signal_steps(scenario, check);
     check_phases(scenario, check);
     check_duration(scenario, check);

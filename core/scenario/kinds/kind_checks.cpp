@@ -39,6 +39,10 @@ void check_green_times(const Scenario& scenario, Checker& check) {
             check.error(field, "the run ends earlier, at duration = " + short_text(scenario.duration_s, unit("s")));
         }
     }
+}
+
+void check_first_green(const Scenario& scenario, Checker& check) {
+    const SignalSettings& signal = scenario.signal;
     if (signal.first_green_s >= scenario.duration_s) {
         check.error("signal.first_green",
                     "lies after the end of the run at " + short_text(scenario.duration_s, unit("s")));
@@ -58,9 +62,9 @@ void refuse_phases(const Scenario& scenario, const std::string& network, Checker
     check.error(scenario.signal.phases.empty() ? "signal.programmes" : "signal.phases", "is not for " + network);
 }
 
-void refuse_green_counts(const Scenario& scenario, Checker& check) {
-    if (scenario.measure.green_s.empty()) return;
-    check.error("measure.green", "is for a single light only (network.kind: approach)");
+void refuse_offset(const Scenario& scenario, Checker& check) {
+    if (scenario.signal.offset_s == 0.0) return;
+    check.error("signal.offset", "is for grids only: it delays the greens from one intersection to the next");
 }
 
 void refuse_cross_inflow(const Scenario& scenario, Checker& check) {

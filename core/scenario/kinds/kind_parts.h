@@ -49,13 +49,15 @@ void add_counters(const Scenario& scenario, int lane, Model& model);
 void check_whole_steps(const Scenario& scenario, const std::string& field, double time_s, Checker& check);
 // Checks that the times of the section `signal` and of measure.green are whole numbers of steps.
 void check_signal_steps(const Scenario& scenario, Checker& check);
-// Checks that the first green and the times of measure.green lie within the run.
+// Checks that the times of measure.green lie within the green and within the run.
 void check_green_times(const Scenario& scenario, Checker& check);
+// Checks that the first green lies within the run.
+void check_first_green(const Scenario& scenario, Checker& check);
 // Reports an error if the scenario sets signal.cycle. The cycle of an intersection is the sum of its stages.
 void refuse_cycle(const Scenario& scenario, Checker& check);
-// Report an error if the scenario sets measure.green, which only single lights use, or demand.cross_inflow, which only
+// Report an error if the scenario sets signal.offset, which only grids use, or demand.cross_inflow, which only
 // intersections and grids use.
-void refuse_green_counts(const Scenario& scenario, Checker& check);
+void refuse_offset(const Scenario& scenario, Checker& check);
 void refuse_cross_inflow(const Scenario& scenario, Checker& check);
 
 }  // namespace stopline

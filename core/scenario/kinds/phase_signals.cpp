@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "base/containers/index.h"
+#include "base/nearest_name.h"
 #include "network/conflicts.h"
 #include "network/movement_groups.h"
 #include "scenario/kinds/kind_parts.h"
@@ -96,8 +97,8 @@ private:
             for (std::size_t k = 0; k < names.size(); ++k) {
                 const std::string place = fmt::format("{}.{}[{}]", field, is_protected ? "protected" : "permissive", k);
                 if (std::find(names_.begin(), names_.end(), names[k]) == names_.end()) {
-                    check_.error(place, fmt::format("there is no movement '{}' (movements of this intersection: {})",
-                                                    names[k], fmt::join(names_, ", ")));
+                    check_.error(place, fmt::format("there is no movement '{}'{}", names[k],
+                                                    known_names_hint(names[k], names_)));
                 } else if (std::any_of(movements.begin(), movements.end(),
                                        [&](const NamedMovement& known) { return known.name == names[k]; })) {
                     check_.error(place, fmt::format("the phase names the movement {} twice", names[k]));

@@ -110,7 +110,6 @@ void check_streets(const Scenario& scenario, Checker& check) {
         check.error("demand.kind",
                     "in streets, value 'rate' needs a demand.profile, or demand.arrivals: poisson or platooned");
     }
-    refuse_green_counts(scenario, check);
     check_street_signals(scenario, check);
     check_pockets(scenario, check);
 }

@@ -35,6 +35,17 @@ struct FieldAtPath {
 // because this depends on the scenario file.
 FieldAtPath find_field(const Table& root, const std::string& path);
 
+// Returns the end of a message about an unknown field `name` in the section at `path`, which has the fields of `table`:
+// "; did you mean 'driver.free_drive.hesitation'? Known: ...". Suggests the fields of this name inside the section or,
+// if there are none, elsewhere in `root`. If there are none either, suggests the most similar field of the section.
+std::string unknown_field_hint(const Table& root, const Table& table, const std::string& path, const std::string& name);
+
+// Returns the problem of a path that names a list at `steps[i]` without an entry in brackets, such as
+// policies.CTG-Ref.time_gap: "is a list: name its entry in brackets, as in 'policies[CTG-Ref].time_gap'". `list_path`:
+// path up to and including the list.
+std::string missing_entry_problem(const ListField& list, const std::string& list_path,
+                                  const std::vector<PathStep>& steps, std::size_t i);
+
 // Returns the path with old field names replaced by the current ones.
 std::string current_path(const Table& root, const std::string& path);
 

@@ -52,10 +52,8 @@ void check_unique(const std::vector<std::string>& names, const std::string& list
     }
 }
 
-void check_known(const std::string& name, const std::vector<std::string>& known, const std::string& what,
-                 const std::string& field, Checker& check) {
-    if (std::find(known.begin(), known.end(), name) != known.end()) return;
-    check.error(field, "there is no " + what + " '" + name + "'" + known_names_hint(name, known));
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 void check_names(const Scenario& scenario, Checker& check) {
@@ -67,12 +65,16 @@ void check_names(const Scenario& scenario, Checker& check) {
         for (std::size_t k = 0; k < population.components.size(); ++k) {
             const std::string field =
                 "populations[" + population.name + "].components[" + std::to_string(k) + "].policy";
-            check_known(population.components[k].policy, policies, "policy", field, check);
+            const std::string& policy = population.components[k].policy;
+            if (contains(policies, policy)) continue;
+            check.error(field, "there is no policy '" + policy + "'" + known_names_hint(policy, policies));
         }
     }
-    if (!scenario.measure.baseline.empty()) {
-        check_known(scenario.measure.baseline, populations, "population", "measure.baseline", check);
-    }
+    const std::string& baseline = scenario.measure.baseline;
+    if (baseline.empty() || baseline == kNoBaseline || contains(populations, baseline)) return;
+    check.error("measure.baseline",
+                fmt::format("there is no population '{}'{}; give one of these, or {} for no comparison", baseline,
+                            known_names_hint(baseline, populations), kNoBaseline));
 }
 
 void check_times(const Scenario& scenario, Checker& check) {
@@ -100,9 +102,32 @@ void check_time_space(const Scenario& scenario, Checker& check) {
                 "value " + measure.time_space_side + " has no effect without measure.time_space");
 }
 
-void check_string_stability(const Scenario& scenario, Checker& check) {
-    if (scenario.measure.string_stability == "off" || network_kind(scenario.network).run == kRunAsSingleLight) return;
-    check.error("measure.string_stability", "is for a single light only (network.kind: approach)");
+// Reports each field of the section `measure` that the scenario sets, but that has no effect on this kind of network. A
+// field with its default value is not reported, because canonical_text() writes all fields.
+void refuse_unused_measures(const Scenario& scenario, Checker& check) {
+    const MeasureSettings& measure = scenario.measure;
+    const MeasureSettings defaults;
+    const NetworkKind& kind = network_kind(scenario.network);
+    const auto refuse = [&](const char* field, bool is_set, bool has_effect, const char* networks) {
+        if (!is_set || has_effect) return;
+        check.error(std::string("measure.") + field, fmt::format("is for {}", networks));
+    };
+    constexpr const char* kLight = "a single light only (network.kind: approach)";
+    const bool is_light = kind.run == kRunAsSingleLight;
+    refuse("green", measure.green_s != defaults.green_s, is_light, kLight);
+    refuse("string_stability", measure.string_stability != defaults.string_stability, is_light, kLight);
+    constexpr const char* kIntersection = "a single intersection only (network.kind: intersection)";
+    const bool is_intersection = kind.run == kRunAsIntersection;
+    refuse("warmup_cycles", measure.warmup_cycles != defaults.warmup_cycles, is_intersection, kIntersection);
+    refuse("cycles", measure.cycles != defaults.cycles, is_intersection, kIntersection);
+    refuse("zones", measure.zone_radius_m != defaults.zone_radius_m, is_intersection, kIntersection);
+    constexpr const char* kNetwork = "networks of several intersections only (network.kind: grid, streets, sumo)";
+    refuse("interval", measure.interval_s != defaults.interval_s, kind.has_measured_area, kNetwork);
+    refuse("window", measure.window_s != defaults.window_s, kind.has_measured_area, kNetwork);
+    refuse("area_margin", measure.area_margin_m != defaults.area_margin_m, kind.has_measured_area && !kind.has_trips,
+           "grids and streets only: the other networks have no measured area, or measure the whole network");
+    refuse("starvation", measure.starvation_s != defaults.starvation_s, kind.has_intersections,
+           "networks with intersections only");
 }
 
 // Checks that all vehicles have data for their energy use.
@@ -161,7 +186,7 @@ void check_scenario(const Scenario& scenario, Checker& check) {
     check_approaches(scenario, check);
     check_measured_area(scenario, check);
     check_time_space(scenario, check);
-    check_string_stability(scenario, check);
+    refuse_unused_measures(scenario, check);
     check_energy(scenario, check);
 }
 
@@ -176,8 +201,9 @@ const Table& measure_table() {
                 "green", "s", {0.1, 7200}, {0, 1000},
                 "single light: times after the start of green at which the vehicles past the stop line are counted",
                 true),
-            text<&S::baseline>("baseline", TextField::Rule::name,
-                               "population with which the others are compared; absent: no improvements are computed"),
+            text<&S::baseline>(
+                "baseline", TextField::Rule::name,
+                "population with which the others are compared; absent or none: no improvements are computed"),
             choice<&S::string_stability>(
                 "string_stability", {"off", "on"},
                 "single light: measure whether accelerations grow from vehicle to vehicle when the queue starts"),

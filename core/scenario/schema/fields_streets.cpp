@@ -13,7 +13,9 @@ const Table& lane_table() {
     static const Table table = make_table<StreetLane>(
         "an approach lane",
         {
-            choice<&StreetLane::movements>("movements", lane_movements(), "movements that the lane allows").required(),
+            choice<&StreetLane::movements>("movements", lane_movements(),
+                                           "movements that the lane allows, in any order")
+                .required(),
             number<&StreetLane::pocket_m>(
                 "pocket", "m", {0, 1000},
                 "length of a turning pocket before the stop line, at least vehicle length + standstill gap; 0 m: no "

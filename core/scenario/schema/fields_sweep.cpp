@@ -100,8 +100,10 @@ const Table& axis_table() {
                 .required(),
             texts<&S::paths>("path", TextField::Rule::title, {1, 100},
                              "path of a scenario field, such as signal.green; a list: fields that change together"),
-            texts<&S::values>("values", TextField::Rule::title, {1, 100'000},
-                              "values, written as in a scenario; 'a | b' gives each of two fields its own value"),
+            texts<&S::values>(
+                "values", TextField::Rule::title, {1, 100'000},
+                "values, written as in a scenario; with two paths, 'a | b' gives each field its own value, and "
+                "a single value holds for both fields"),
             texts<&S::populations>("populations", TextField::Rule::name, {1, 1000},
                                    "names of populations of the scenario, or 'all'"),
         },

@@ -16,8 +16,8 @@ using Json = nlohmann::ordered_json;
 Json table_schema(const Table& table, const void* settings);
 
 Json quantity_schema(const Unit& unit, const Range& range) {
-    const Json text{{"type", "string"}, {"pattern", quantity_pattern(unit.dimension)}};
-    if (unit.dimension != Dimension::number) return text;
+    const Json text{{"type", "string"}, {"pattern", quantity_pattern(unit)}};
+    if (!unit.text.empty()) return text;
     Json number{{"type", "number"}, {"minimum", to_si(range.min, unit)}};
     if (range.max != std::numeric_limits<double>::max()) number["maximum"] = to_si(range.max, unit);
     return Json{{"anyOf", Json::array({number, text})}};
@@ -63,10 +63,9 @@ struct KindSchema {
     }
 
     Json operator()(const CurveField& f) const {
-        Json schema{
-            {"type", "object"},
-            {"additionalProperties", false},
-            {"patternProperties", {{quantity_pattern(f.x_unit->dimension), quantity_schema(*f.y_unit, f.y_range)}}}};
+        Json schema{{"type", "object"},
+                    {"additionalProperties", false},
+                    {"patternProperties", {{quantity_pattern(*f.x_unit), quantity_schema(*f.y_unit, f.y_range)}}}};
         set_size(schema, f.size, "minProperties", "maxProperties");
         return schema;
     }

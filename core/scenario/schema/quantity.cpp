@@ -69,8 +69,20 @@ std::string take_number(std::string_view& text, double& value) {
     return {};
 }
 
+std::string digits(double value) {
+    std::array<char, 40> text{};
+    const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() ? std::string(text.data(), end) : std::string();
+}
+
+// Returns the problem of a number without unit. For a percentage, a plain number from 0 to 1 could mean a fraction, too.
+std::string missing_unit(double value, std::string_view number, const Unit& expected) {
+    const std::string written = "'" + shortened(number) + " " + std::string(expected.text) + "'";
+    if (expected.text != "%" || value <= 0.0 || value > 1.0) return "has no unit: write e.g. " + written;
+    return "has no unit: write " + written + " or '" + short_text(value, expected) + "', whichever is meant";
+}
+
 std::string unit_problem(std::string_view written, const Unit& expected) {
-    if (written.empty()) return "has no unit";
     std::vector<std::string> spellings;
     for (const Unit& candidate : units()) {
         if (candidate.text == written) {
@@ -85,12 +97,6 @@ std::string unit_problem(std::string_view written, const Unit& expected) {
     return "has the unknown unit '" + shortened(written) + "' (known here: " + joined(spellings) + ")";
 }
 
-std::string digits(double value) {
-    std::array<char, 40> text{};
-    const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc() ? std::string(text.data(), end) : std::string();
-}
-
 std::string with_unit(const std::string& number, const Unit& in) {
     if (in.text.empty()) return number;
     return number + " " + std::string(in.text);
@@ -99,11 +105,12 @@ std::string with_unit(const std::string& number, const Unit& in) {
 }  // namespace
 
 const std::vector<Unit>& units() {
-    // The first unit of each dimension is the SI unit, rpm for engine speeds, or g/h for fuel rates. exact_text()
-    // relies on this order.
+    // The first unit of each dimension without a factor is the SI unit, rpm for engine speeds, g/h for fuel rates, or
+    // `fraction`. exact_text() relies on this order.
     static const std::vector<Unit> all{
         {"", Dimension::number},
         {"%", Dimension::number, 1.0, 100.0},
+        {"fraction", Dimension::number},
         {"s", Dimension::time},
         {"ms", Dimension::time, 1.0, 1000.0},
         {"min", Dimension::time, 60.0},
@@ -171,6 +178,11 @@ ParsedQuantity parse_quantity(std::string_view text, const Unit& expected) {
     result.problem = take_number(rest, value);
     if (!result.problem.empty()) return result;
     const std::string_view written = trimmed(rest);
+    if (written.empty() && !expected.text.empty()) {
+        const std::string_view number = trimmed(text);
+        result.problem = missing_unit(value, number, expected);
+        return result;
+    }
     for (const Unit& candidate : units()) {
         if (candidate.dimension != expected.dimension || candidate.text != written) continue;
         result.si = to_si(value, candidate);
@@ -214,9 +226,11 @@ std::string exact_text(double si, const Unit& unit) {
         const std::string text = with_unit(digits(value), unit);
         if (parses_back(text)) return text;
     }
-    const auto base = std::find_if(units().begin(), units().end(),
-                                   [&](const Unit& candidate) { return candidate.dimension == unit.dimension; });
-    return with_unit(digits(si), *base);
+    const auto is_base = [&](const Unit& candidate) {
+        return candidate.dimension == unit.dimension && !candidate.text.empty() &&
+               candidate.multiply == candidate.divide;
+    };
+    return with_unit(digits(si), *std::find_if(units().begin(), units().end(), is_base));
 }
 
 std::string short_text(double si, const Unit& unit) {
@@ -226,17 +240,17 @@ std::string short_text(double si, const Unit& unit) {
     return with_unit(error == std::errc() ? std::string(text.data(), end) : std::string(), unit);
 }
 
-std::string quantity_pattern(Dimension dimension) {
+std::string quantity_pattern(const Unit& unit) {
     std::string spellings;
     for (const Unit& candidate : units()) {
-        if (candidate.dimension != dimension || candidate.text.empty()) continue;
+        if (candidate.dimension != unit.dimension || candidate.text.empty()) continue;
         if (!spellings.empty()) spellings += '|';
         for (const char c : candidate.text) {
             if (c == '^') spellings += '\\';
             spellings += c;
         }
     }
-    const std::string unit_part = dimension == Dimension::number ? "(" + spellings + ")?" : "(" + spellings + ")";
+    const std::string unit_part = "(" + spellings + ")" + (unit.text.empty() ? "?" : "");
     return "^ *[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)? *" + unit_part + " *$";
 }
 

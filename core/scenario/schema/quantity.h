@@ -1,8 +1,8 @@
 // Quantities with units, as files write them: "50 km/h", "0.87 s", "2.5 m/s2", "30 %".
 //
-// A quantity that has a dimension must have a unit; none is assumed. A unit of the wrong dimension is an error. A
-// number without dimension has no unit or the unit %, as in 0.3 or 30 %. All values are converted to SI units, except
-// engine speeds, which stay in rpm, and fuel rates, which stay in g/h.
+// A quantity must have a unit; none is assumed. A unit of the wrong dimension is an error. A percentage is written as
+// 30 % or as 0.3 fraction. Only a plain number, such as a platoon size, may have no unit. All values are converted to SI
+// units, except engine speeds, which stay in rpm, and fuel rates, which stay in g/h.
 #pragma once
 
 #include <string>
@@ -44,7 +44,7 @@ struct Unit {
 
 // Returns all units. Each spelling has an entry of its own, such as m2 and m^2.
 const std::vector<Unit>& units();
-// Returns the unit with this spelling; "" and "%" are the units of plain numbers. Throws std::logic_error if there is
+// Returns the unit with this spelling; "" is the unit of plain numbers. Throws std::logic_error if there is
 // no such unit.
 const Unit& unit(std::string_view text);
 std::string_view name_of(Dimension dimension);  // "time", "length", ...
@@ -73,7 +73,7 @@ std::string exact_text(double si, const Unit& unit);
 // Returns the value in `unit` as text, rounded to seven significant digits.
 std::string short_text(double si, const Unit& unit);
 
-// Returns a regular expression (ECMA 262) that matches quantities of a dimension. The JSON schema uses it.
-std::string quantity_pattern(Dimension dimension);
+// Returns a regular expression (ECMA 262) that matches quantities for a field with this unit. The JSON schema uses it.
+std::string quantity_pattern(const Unit& unit);
 
 }  // namespace stopline

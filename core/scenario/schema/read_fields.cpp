@@ -22,11 +22,34 @@ std::string kind_name(const SourceNode& node) {
     }
 }
 
-constexpr const char* kNoUnit = "has no unit";  // text of ParsedQuantity::problem for a missing unit
-
 bool is_title(const std::string& text) {
     return text.size() <= 200 && std::none_of(text.begin(), text.end(),
                                               [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
+}
+
+// Returns the parts of a name that is joined with '+' signs, in alphabetical order.
+std::vector<std::string> sorted_parts(const std::string& name) {
+    std::vector<std::string> parts(1);
+    for (const char c : name) {
+        if (c == '+') {
+            parts.emplace_back();
+        } else {
+            parts.back() += c;
+        }
+    }
+    std::sort(parts.begin(), parts.end());
+    return parts;
+}
+
+// Returns the name of the choice that `text` means: the name itself, or the name with the same parts in another order,
+// such as straight+left for left+straight. Returns "" if there is no such name.
+std::string chosen_name(const std::vector<std::string>& names, const std::string& text) {
+    if (std::find(names.begin(), names.end(), text) != names.end()) return text;
+    if (text.find('+') == std::string::npos) return {};
+    const std::vector<std::string> parts = sorted_parts(text);
+    const auto found =
+        std::find_if(names.begin(), names.end(), [&](const std::string& name) { return sorted_parts(name) == parts; });
+    return found == names.end() ? std::string() : *found;
 }
 
 // Reads the value of one field into `settings`. There is one operator() for each kind of field.
@@ -70,11 +93,12 @@ public:
 
     void operator()(const ChoiceField& f) {
         if (!scalar(node_, path_)) return;
-        if (std::find(f.names.begin(), f.names.end(), node_.text) == f.names.end()) {
+        const std::string name = chosen_name(f.names, node_.text);
+        if (name.empty()) {
             return error(node_, path_,
                          "value '" + shortened(node_.text) + "' is unknown" + known_names_hint(node_.text, f.names));
         }
-        f.set(settings_, node_.text);
+        f.set(settings_, name);
     }
 
     void operator()(const NumbersField& f) {
@@ -119,7 +143,9 @@ public:
         }
     }
 
-    void operator()(const SectionField& f) { read_fields(f.table(), node_, path_, f.write(settings_), report_); }
+    void operator()(const SectionField& f) {
+        read_fields(f.table(), node_, path_, f.write(settings_), report_, f.library);
+    }
 
     void operator()(const ListField& f) {
         if (node_.kind != SourceNode::Kind::list) return wrong_kind("a list");
@@ -174,16 +200,9 @@ private:
                   double& value) {
         if (!scalar(node, path)) return false;
         const ParsedQuantity parsed = parse_quantity(node.text, unit);
-        const bool too_large = parsed.si > to_si(range.max, unit);
-        // A share may be a plain number, such as 0.3 for 30 %. A plain 30 probably means 30 %, so the message asks for
-        // a unit.
-        const bool lacks_percent = too_large && unit.text == "%" && node.text.find('%') == std::string::npos;
-        if (parsed.problem == kNoUnit || (parsed.problem.empty() && lacks_percent)) {
-            bad_value(node, path,
-                      kNoUnit + (": write e.g. '" + shortened(node.text) + " " + std::string(unit.text) + "'"));
-        } else if (!parsed.problem.empty()) {
+        if (!parsed.problem.empty()) {
             bad_value(node, path, parsed.problem);
-        } else if (too_large || parsed.si < to_si(range.min, unit)) {
+        } else if (parsed.si > to_si(range.max, unit) || parsed.si < to_si(range.min, unit)) {
             bad_value(node, path, "is out of range");
         } else {
             value = parsed.si;
@@ -203,7 +222,7 @@ void report_unknown_keys(const Table& table, const SourceNode& map, const std::s
     for (const SourceNode::Key& key : map.keys) {
         if (table.find(key.text) != nullptr) continue;
         report.error(key.place, "field '" + join_path(path, shortened(key.text)) + "' is unknown" +
-                                    known_names_hint(key.text, table.names()));
+                                    unknown_field_hint(table, table, path, key.text));
     }
 }
 
@@ -215,11 +234,35 @@ bool may_stay(const Field& field, const SourceNode& value, const SourceNode& map
     return value.text == "off" || (rule != nullptr && in_file(value) && !in_file(*rule));
 }
 
+// Returns the position of a value in `map`, for a message about its field. A section that the file does not have, but
+// that an override sets in part, has the position of `map`; the result is then the override.
+Place place_given(const SourceNode& value, const SourceNode& map) {
+    if (value.place.line != map.place.line || value.place.column != map.place.column) return value.place;
+    const auto is_override = [](const SourceNode& node) { return !node.place.source->has_lines; };
+    const auto found = std::find_if(value.items.begin(), value.items.end(), is_override);
+    return found == value.items.end() ? value.place : found->place;
+}
+
 void report_missing(const Field& field, const SourceNode& map, const std::string& path, Report& report) {
     const std::string unit = unit_text(field.kind);
     report.error(map.place, "field '" + path + "' is missing: " + field.meaning +
                                 (unit.empty() ? "" : " [" + unit + "]") + " (allowed: " + allowed_text(field.kind) +
                                 ")");
+}
+
+// Reports the required fields that a map lacks. For a map that could start from a data file, several missing fields are
+// one error, because the file was probably forgotten. `library`: folder of these data files; "": none.
+void report_missing(const std::vector<const Field*>& fields, const SourceNode& map, const std::string& path,
+                    const std::string& library, Report& report) {
+    if (library.empty() || fields.size() < 2) {
+        for (const Field* const field : fields) report_missing(*field, map, join_path(path, field->name), report);
+        return;
+    }
+    std::vector<std::string> names;
+    for (const Field* const field : fields) names.push_back(field->name);
+    report.error(map.place, "field '" + path + "': " + std::to_string(names.size()) +
+                                " fields are missing: add 'base: NAME' to take them from a file of data/" + library +
+                                ", or give all of them (" + joined(names) + ")");
 }
 
 }  // namespace
@@ -228,7 +271,8 @@ void read_value(const Field& field, const SourceNode& node, const std::string& p
     std::visit(ValueReader(field, node, path, settings, report), field.kind);
 }
 
-void read_fields(const Table& table, const SourceNode& node, const std::string& path, void* settings, Report& report) {
+void read_fields(const Table& table, const SourceNode& node, const std::string& path, void* settings, Report& report,
+                 const std::string& library) {
     if (node.kind == SourceNode::Kind::broken) return;
     report.remember(path, node.place);
     if (node.kind != SourceNode::Kind::map) {
@@ -240,6 +284,7 @@ void read_fields(const Table& table, const SourceNode& node, const std::string& 
     const std::size_t errors_before_map = report.error_count();
     report_unknown_keys(table, node, path, report);
     std::set<std::string> unreadable_choices;  // choices with errors; fields that depend on such a choice are skipped
+    std::vector<const Field*> missing;
     for (const Field& field : table.fields) {
         if (unreadable_choices.contains(field.condition_field)) continue;
         const std::string field_path = join_path(path, field.name);
@@ -248,17 +293,19 @@ void read_fields(const Table& table, const SourceNode& node, const std::string& 
         const std::size_t errors_before_field = report.error_count();
         if (value != nullptr) report.remember(field_path, value->place);
         if (value != nullptr && !exists && !may_stay(field, *value, node)) {
-            report.error(value->place, "field '" + field_path + "' applies only if " + field.condition_field + " is " +
-                                           joined(field.condition_values, " or "));
+            report.error(place_given(*value, node), "field '" + field_path + "' applies only if " +
+                                                        field.condition_field + " is " +
+                                                        joined(field.condition_values, " or "));
         } else if (value != nullptr) {
             read_value(field, *value, field_path, settings, report);
         } else if (exists && field.required) {
-            report_missing(field, node, field_path, report);
+            missing.push_back(&field);
         }
         if (std::holds_alternative<ChoiceField>(field.kind) && report.error_count() > errors_before_field) {
             unreadable_choices.insert(field.name);
         }
     }
+    report_missing(missing, node, path, library, report);
     if (table.check && report.error_count() == errors_before_map) {
         Checker checker(report, path);
         table.check(settings, checker);

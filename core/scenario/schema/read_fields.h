@@ -9,8 +9,10 @@
 namespace stopline {
 
 // Reads a map of fields. `settings` points to a default-constructed struct of the table's type. `path` is the path of
-// the map in messages, "" for the root. The settings are usable only if the report has no error afterwards.
-void read_fields(const Table& table, const SourceNode& node, const std::string& path, void* settings, Report& report);
+// the map in messages, "" for the root. `library`: folder of the data files that the map can name as its `base`; "": none.
+// The settings are usable only if the report has no error afterwards.
+void read_fields(const Table& table, const SourceNode& node, const std::string& path, void* settings, Report& report,
+                 const std::string& library = {});
 
 // Reads the value of one field into `settings`, which points to a struct of the type of the field's table.
 void read_value(const Field& field, const SourceNode& node, const std::string& path, void* settings, Report& report);

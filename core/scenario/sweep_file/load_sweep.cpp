@@ -128,10 +128,10 @@ void check_scenario_file(const SweepSettings& sweep, const std::filesystem::path
     const std::filesystem::file_type type = std::filesystem::status(file, error).type();
     const bool missing = type == std::filesystem::file_type::not_found;
     if (!missing && type != std::filesystem::file_type::directory) return;
-    report.error(report.place_of("scenario"), "field 'scenario': value '" + shortened(sweep.scenario) + "' leads to " +
-                                                  file.generic_string() +
-                                                  (missing ? ": no such file" : ": is a directory, not a YAML file") +
-                                                  " (relative paths start at the sweep file's folder)");
+    report.error(report.place_of("scenario"),
+                 "field 'scenario': value '" + shortened(sweep.scenario) + "' leads to " + file.generic_string() +
+                     (missing ? ": no such file" + nearest_file_hint(file) : ": is a directory, not a YAML file") +
+                     " (relative paths start at the sweep file's folder)");
 }
 
 SweepSettings sweep_from(SourceNode root) {

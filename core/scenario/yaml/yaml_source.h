@@ -38,6 +38,9 @@ private:
 
 // Parses a YAML text. Throws YamlError at the first error.
 SourceNode parse_yaml(std::string_view text, const std::shared_ptr<const Source>& source);
+// Returns the end of a message about a missing file: "; did you mean 'grid.yaml'?" if the folder of the file has a YAML
+// file with a similar name, else "".
+std::string nearest_file_hint(const std::filesystem::path& file);
 // Reads and parses a YAML file. Throws InputError if the file cannot be read or is not valid YAML.
 SourceNode read_yaml_file(const std::filesystem::path& file);
 

@@ -67,6 +67,7 @@ refused() {
     "$program" --output "$work/bad" "$@" >"$work/stdout" 2>"$work/stderr" || code=$?
     [ $code -eq 2 ] || fail "$*: exit code $code instead of 2"
     grep -qF -- "$part" "$work/stderr" || fail "$*: '$part' is missing in: $(cat "$work/stderr")"
+    grep -qE "^(full dynamics|mesoscale mode)" "$work/stdout" && fail "$*: refused only after runs"
 }
 refused "nonsense" "$work/timing.yaml" --step I --start nonsense
 refused "accepted" "$work/timing.yaml" --step I --accepted "$work/timing.yaml"
@@ -79,15 +80,26 @@ first_detector='import csv, sys; print(next(csv.DictReader(open(sys.argv[1])))["
 detector="$(python3 -c "$first_detector" "$work/whole/differences.csv")"
 with_parameters=("$work/timing.yaml" --step I --parameters "$work/whole/fitted.yaml" --accepted "$work/accepted.yaml")
 accepted "$permutation" foo
-refused "accepted.yaml: field 'accepted[0].detector': there is no detector 'foo'" "${with_parameters[@]}"
+refused "accepted.yaml:2:58: field 'accepted[0].detector': there is no detector 'foo'" "${with_parameters[@]}"
 grep -q "full dynamics:" "$work/stdout" && fail "the names of --accepted are checked after the runs"
 accepted "green = 11 s, population = CDG" "$detector"
-refused "there is no permutation 'green = 11 s, population = CDG'; did you mean '$permutation'" "${with_parameters[@]}"
+refused "there is no permutation 'green = 11 s, population = CDG'; did you mean '$permutation'? Known: 'green = 10 s, population = CTG-Ref', '" "${with_parameters[@]}"
+grep -qF "accepted.yaml:2:17: field 'accepted[0].permutation'" "$work/stderr" || fail "no place in: $(cat "$work/stderr")"
 accepted "$permutation" "$detector"
 "$program" --output "$work/accepted" "${with_parameters[@]}" >"$work/stdout" 2>"$work/stderr" ||
     fail "known names are refused: $(cat "$work/stderr")"
 sed 's/repetitions: 3/repetitions: 2/' "$work/metrics.yaml" >"$work/few.yaml"
-refused "at least 3 runs" --step II --metrics-sweep "$work/few.yaml" --parameters fitted
-refused "no result 'nonsense'" --step II --metrics-sweep "$work/metrics.yaml" --parameters fitted --metric nonsense
+# Step II is checked before the first run, also if step I comes first.
+timing=()
+for step in II both; do
+    refused "few.yaml:6:14: field 'repetitions': value 2 is too small: a confidence band needs at least 3 runs" \
+        "${timing[@]}" --step $step --metrics-sweep "$work/few.yaml" --parameters fitted
+    refused "no result 'throughput_veh'; did you mean 'throughput_veh_h'? Known: " \
+        "${timing[@]}" --step $step --metrics-sweep "$work/metrics.yaml" --parameters fitted --metric throughput_veh
+    refused "no result 'state_hash'" \
+        "${timing[@]}" --step $step --metrics-sweep "$work/metrics.yaml" --parameters fitted --metric state_hash
+    grep -qE "state_hash,|population,|seed," "$work/stderr" && fail "columns without mean in: $(cat "$work/stderr")"
+    timing=("$work/timing.yaml")
+done
 
 exit $((failures > 0))

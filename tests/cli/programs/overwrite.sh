@@ -47,8 +47,12 @@ refused "(--trajectories-file) would overwrite 'out/one/summary.csv' (a table in
 refused "(a table in the folder of --output)" run one.yaml "${one[@]}" --output r --fcd r/one.provenance.json
 refused "a figure in the folder of --output could overwrite 'r/platoon.svg'" \
     run one.yaml --set 'populations=[CDG]' --set measure.baseline=CDG --output r --fcd r/platoon.svg
-refused "a figure in the folder of --output could overwrite 'out/one/counters.svg'" \
-    run one.yaml --set 'populations=[CDG]' --set measure.baseline=CDG --trajectories --trajectories-file counters.svg
+refused "so the name 'counters.svg' must end with .csv or .csv.gz or .csv.zst" \
+    run one.yaml "${one[@]}" --trajectories --trajectories-file counters.svg
+refused "so the name 'a.parquet' must end with .csv" run one.yaml "${one[@]}" --trajectories --trajectories-file a.parquet
+for outside in ../a.csv b/../../a.csv "$PWD/a.csv"; do
+    refused "'$outside' is outside of the results folder" run one.yaml "${one[@]}" --trajectories --trajectories-file "$outside"
+done
 refused "have no effect on --trajectories here" run one.yaml "${one[@]}" --trajectories --record-from '10 s'
 refused "would overwrite 's/scorecard.csv'" scorecard --output s --markdown s/scorecard.csv
 "$STOPLINE_BIN/stopline-run" one.yaml "${one[@]}" --fcd /dev/null --tripinfo /dev/null --output null >/dev/null ||

@@ -95,12 +95,27 @@ prints "  ./stopline-run " -- env -C "$STOPLINE_BIN" ./stopline-run --help
 
 refuses "no scenario file given" -- "$run"
 refuses "none.yaml" -- "$run" none.yaml
+quoted="the value of --set has a blank, so it needs quotes: write --set"
+refuses "$quoted 'signal.green=20 s'" -- "$run" "$scenario" --set signal.green=20 s
+refuses "$quoted 'signal.green=20 s'" -- "$run" --set signal.green=20 s "$scenario"
+refuses "$quoted 'demand.left=20 %'" -- "$run" "$scenario" --set demand.left=20 % --no-figures
+refuses "$quoted 'measure.green=[5 s, 10 s]'" -- "$run" "$scenario" --set "measure.green=[5" s, 10 "s]" --no-figures
+refuses "$quoted 'title=My new run'" -- "$run" "$scenario" --set title=My new run
+refuses "unknown option '--outptu' (did you mean '--output'?), unknown option '--trajectorie' (did you mean '--trajectories'?)" -- \
+    "$run" "$scenario" --outptu x --trajectorie
+refuses "unknown option '--population' (write --set 'populations=[CDG]' instead)" -- "$run" "$scenario" --population CDG
+refuses "unknown option '--population' (write --set 'populations=[CDG]' instead)" -- "$run" "$scenario" --population=CDG
+refuses "unknown option '--outputt' (did you mean '--output'?)" -- "$STOPLINE_BIN/stopline-sweep" merge --outputt x y
+refuses "the argument 'other.yaml' is not expected" -- "$run" "$scenario" other.yaml
 refuses "two.yaml" -- "$run" "$scenario" two.yaml
 refuses "'signal.gren'" -- "$run" "$scenario" --set "signal.gren=5 s"
-refuses "--interval" -- "$run" "$scenario" --trajectories --interval 5
+refuses "--interval: value '5' has no unit: write e.g. '5 s'" -- "$run" "$scenario" --trajectories --interval 5
+refuses "--record-from: value '100' has no unit: write e.g. '100 s'" -- "$run" "$scenario" --record x.rec --record-from 100
 refuses "whole number of steps" -- "$run" "$scenario" --trajectories --interval "15 ms"
 refuses "whole number of steps" -- "$run" "$scenario" --trajectories --interval "0 s"
 refuses "no rows of section 'XI'" -- "$scorecard" --section XI
+refuses "--reference passage: field 'meso': there is no 'passage' in " -- "$STOPLINE_BIN/stopline-calibrate" --reference passage
+refuses "did you mean 'passages'?" -- "$STOPLINE_BIN/stopline-calibrate" --step I --parameters passage
 refuses "--step: value 'III' is not allowed; allowed: I, II, both" -- "$STOPLINE_BIN/stopline-calibrate" --step III
 
 refuses "network.kind" -- "$strings" "$STOPLINE_SOURCE/scenarios/grid.yaml"

@@ -14,8 +14,8 @@ warns() {
     grep -qF -- "$expected" "$work/stderr" || fail "$*: '$expected' is missing in: $(cat "$work/stderr")"
 }
 
-printf 'title: old\nmeasure: {steady: 300 s}\n' >"$work/old.yaml"
-printf 'title: new\n' >"$work/new.yaml"
+printf 'title: old\nmeasure: {steady: 300 s}\nnetwork: {kind: grid}\n' >"$work/old.yaml"
+printf 'title: new\nnetwork: {kind: grid}\n' >"$work/new.yaml"
 printf 'scenario: new.yaml\naxes:\n- {name: window, path: measure.steady, values: [300 s, 400 s]}\n' >"$work/axis.yaml"
 printf 'scenario: old.yaml\naxes:\n- {name: green, path: signal.green, values: [20 s, 30 s]}\n' >"$work/sweep.yaml"
 setting="measure.steady=200 s"
