@@ -25,6 +25,7 @@
 #include "figures/studies/sweep_figures.h"
 #include "figures/studies/turn_figures.h"
 #include "runs/tables/column_aliases.h"
+#include "scenario/scenario.h"
 #include "scenario/schema/quantity.h"
 #include "scenario/sweep_file/load_sweep.h"
 #include "sweep/ranks.h"
@@ -237,6 +238,7 @@ std::string baseline_of(const Sweep& sweep, const CsvTable& results) {
             baseline = axis.values.front();
         }
     }
+    if (baseline == kNoBaseline) baseline.clear();
     const std::size_t column = results.column(sweep.population_column());
     const auto runs_it = [&](const std::vector<std::string>& row) { return row[column] == baseline; };
     if (!baseline.empty() && !results.rows.empty() && !std::any_of(results.rows.begin(), results.rows.end(), runs_it)) {

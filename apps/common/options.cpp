@@ -40,7 +40,7 @@ bool is_unit(const std::string& word) {
                        [&](const Unit& one) { return !one.text.empty() && one.text == word; });
 }
 
-// The words of a command line that contains words which the program does not know.
+// A command line with unknown words.
 class UnknownWords {
 public:
     UnknownWords(const CLI::App& app, std::vector<std::string> words)
@@ -108,6 +108,8 @@ private:
         for (std::size_t k = 0; k + 2 < words_.size(); ++k) {
             if (words_[k] != "--set") continue;
             std::string setting = words_[k + 1];
+            const bool is_quoted = setting.find(' ') != std::string::npos && !has_open_bracket(setting);
+            if (is_quoted) continue;
             for (std::size_t next = k + 2; next < words_.size() && !is_option(words_[next]); ++next) {
                 const bool ends_here = !has_open_bracket(setting) && is_unit(words_[next]);
                 if (!ends_here && !has_open_bracket(setting) && !is_unknown(words_[next])) break;

@@ -93,7 +93,7 @@ std::string ideal_text(const SingleLightReport& result) {
     if (!compares) return text + "\n" + table.text() + "\n";
     const std::string notes = fmt::format(
         "  mean improvement: over all green times from {0:.4g} s to {1:.4g} s, at most until one of the two queues\n"
-        "  has emptied; counts with a * in the first table do not enter. -: a queue empties before {0:.4g} s\n",
+        "  has emptied; counts with a * in the first table do not enter. '-': a queue empties before {0:.4g} s\n",
         kSaturated_s, result.scenario.signal.green_s);
     return text + fmt::format(" | mean improvement for green times from {:.4g} s [%]\n", kSaturated_s) + table.text() +
            notes + "\n";
@@ -119,7 +119,7 @@ std::string queue_text(const SingleLightReport& result) {
     }
     if (names.empty()) return "";
     return "The end of the queue has not closed up when the green starts (largest net gap):\n  " + names +
-           "\n  This matters only if those vehicles pass within the green. Use a later signal.first_green then.\n\n";
+           "\n  This matters only if vehicles behind the open gap pass within the green. Then set a later signal.first_green.\n\n";
 }
 
 std::string violations_text(const SingleLightReport& result) {

@@ -42,8 +42,9 @@ struct BandCheck {
 };
 
 // Returns the result columns to check: the columns in `named` or, if `named` is empty, the throughput, the first
-// density and the first travel time that the results of the sweep have. Needs no run. Throws InputError if a named column
-// does not exist or has no mean, if `named` is empty and the results lack all three, or for fewer than three repetitions.
+// density and the first travel time that the results of the sweep have. Needs no run. Throws InputError if a named
+// column does not exist or has no mean, if `named` is empty and the results lack all three, or if the sweep has fewer
+// than three repetitions.
 std::vector<std::string> band_metrics(const Sweep& sweep, const std::vector<std::string>& named);
 
 // Compares two stores that hold all runs of `sweep`. Throws InputError for fewer than three repetitions.

@@ -265,8 +265,8 @@ STOPLINE_INLINE R emergency_acceleration(const CaccSettingsOf<Number>& c, const 
     return choose(urgent, 0.0 - braking, unconstrained);
 }
 
-// Our choice: sum of the lag of the brake (0.2 s) and of the time that the requested acceleration needs to change
-// (about 0.1 s).
+// Delay of braking, our choice: sum of the lag of the brake (0.2 s) and of the time that the requested acceleration
+// needs to change (about 0.1 s).
 inline constexpr double kBrakeResponse_s = 0.3;
 
 // Constants of keep_room_acceleration(), whose comment explains their use. Both values are our choice.

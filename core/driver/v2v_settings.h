@@ -32,8 +32,9 @@ struct FallbackSettings {
     // 3.31 s with a radar delay of 0.15 s.
     double acc_time_gap_s = 1.5;
     // Time gap with the leader's acceleration estimated from radar (dCACC): the smallest string-stable one with the
-    // default gains, a lag of 0.3 s and a radar without delay. With a lag of 0.1 s, 1.15 s suffices. With a radar delay of
-    // 0.15 s, 1.56 and 1.36 s are needed.
+    // default gains, a lag of 0.3 s and a radar without delay. With a lag of 0.1 s, 1.15 s suffices. With a radar delay
+    // of
+    // 0.15 s, 1.56 s (lag 0.3 s) and 1.36 s (lag 0.1 s) are needed.
     double radar_time_gap_s = 1.23;
 
     bool operator==(const FallbackSettings&) const = default;

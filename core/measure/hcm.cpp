@@ -128,8 +128,8 @@ HcmRow measured_row(const LaneGraph& graph, const HcmRecord& record, const std::
     }
     row.control_delay_s = passed > 0 ? row.control_delay_s / passed : kNan;
     row.stops = passed > 0 ? row.stops / passed : kNan;
-    // A teleported vehicle has arrived, too, although it does not pass. A vehicle that changes lanes arrives on its last
-    // lane, so the sum of the lane that it leaves can be negative.
+    // A teleported vehicle has arrived, too, although it does not pass. A vehicle that changes lanes arrives on its
+    // last lane, so the sum of the lane that it leaves can be negative.
     int arrived = passed + intervals.back().present_veh - intervals.front().present_before_veh;
     for (const HcmInterval& interval : intervals) arrived += interval.teleported_veh;
     row.initial_queue_veh = intervals.front().residual_before_veh;

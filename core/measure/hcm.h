@@ -42,7 +42,7 @@ struct HcmInterval {
     int residual_veh = 0;         // queued vehicles that have not passed at the end of the interval
     int present_veh = 0;          // vehicles before the stop line at the end, with those that wait to enter
     bool is_used = false;         // queued vehicles are left at the end of green
-    int residual_before_veh = 0;  // the same two numbers at the start of the interval
+    int residual_before_veh = 0;  // residual_veh and present_veh at the start of the interval
     int present_before_veh = 0;
     // Number of the cycle of the signal in which the interval ends. Intervals with the same number are one cycle of the
     // lane. -1: the interval is a cycle of its own.

@@ -42,9 +42,9 @@ double uniform_delay_s(double cycle_s, double effective_green_s, double saturati
 inline constexpr double kHcmPeriod_h = 0.25;    // analysis period of 15 min
 inline constexpr double kPretimedSignal = 0.5;  // factor k of a pretimed signal
 
-// Returns the incremental delay d2 (HCM equation 16-12) of random arrivals and of demand above capacity. `variance_i` is
-// the factor I: the variance of the arrivals in a cycle over their mean. The defaults are an analysis period of 15 min, a
-// pretimed signal, and an isolated intersection, whose arrivals are random (I = 1).
+// Returns the incremental delay d2 (HCM equation 16-12) of random arrivals and of demand above capacity. `variance_i`
+// is the factor I: the variance of the arrivals in a cycle over their mean. The defaults are an analysis period of 15
+// min, a pretimed signal, and an isolated intersection, whose arrivals are random (I = 1).
 double incremental_delay_s(double saturation, double capacity_veh_h, double period_h = kHcmPeriod_h,
                            double k = kPretimedSignal, double variance_i = 1.0);
 
@@ -52,8 +52,8 @@ double incremental_delay_s(double saturation, double capacity_veh_h, double peri
 // and capacity stay constant in the period. `queue_veh` is this queue.
 //
 // The queue lasts until the spare capacity has discharged it. Each arrival waits until the capacity has discharged what
-// is left of it. The mean over the arrivals equals the equation of the HCM, which divides by the volume. In this form it
-// is also defined without volume. It is then the mean delay that a single arrival at any time would have.
+// is left of it. The mean over the arrivals equals the equation of the HCM, which divides by the volume. In this form
+// it is also defined without volume. It is then the mean delay that a single arrival at any time would have.
 double initial_queue_delay_s(double queue_veh, double volume_veh_h, double capacity_veh_h, double period_h);
 
 // The back of the queue of a lane: the vehicles that stop in a cycle, and those that the last cycle has left. The first

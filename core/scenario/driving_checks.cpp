@@ -104,10 +104,10 @@ void check_lags(const DrivenVehicle& driven, Checker& check) {
 //
 // Mesoscale mode: before a stop with the remaining distance r, the speed of the next step is
 //     v(r) = sqrt((b tau)^2 + 2 b r) - b tau
-// with the deceleration b and the reaction time tau of the model. The vehicle drives v(r) dt in the step dt. This can be
-// further than r. In each later step, the speed falls by at most e dt, with the emergency deceleration e of the driver.
-// In n steps from the speed v on, the vehicle thus drives n v dt - n (n - 1) / 2 e dt^2. The remaining distance was
-// r = v^2 / (2 b) + tau v. The difference is greatest for v = b (n dt - tau). For n = 1 it is b (dt - tau)^2 / 2 if
+// with the deceleration b and the reaction time tau of the model. The vehicle drives v(r) dt in the step dt. This can
+// be further than r. In each later step, the speed falls by at most e dt, with the emergency deceleration e of the
+// driver. In n steps from the speed v on, the vehicle thus drives n v dt - n (n - 1) / 2 e dt^2. The remaining distance
+// was r = v^2 / (2 b) + tau v. The difference is greatest for v = b (n dt - tau). For n = 1 it is b (dt - tau)^2 / 2 if
 // dt > tau. If dt <= tau and b <= e, the vehicle stops in time.
 double stop_overshoot_m(const Scenario& scenario, const PopulationSettings::Component& component) {
     const auto policy = std::find_if(scenario.policies.begin(), scenario.policies.end(),

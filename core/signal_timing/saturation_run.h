@@ -14,8 +14,8 @@
 // green, divided by the effective green of its stage. This number changes from cycle to cycle, because the first
 // left-turning vehicle of a queue blocks the vehicles behind it. Its variance increases the delay.
 //
-// The flow of such a lane remains somewhat too high. The saturated leg blocks the left turns of the oncoming leg, and the
-// vehicles behind them are missing in the oncoming traffic.
+// The flow of such a lane remains somewhat too high. The saturated leg blocks the left turns of the oncoming leg, and
+// the vehicles behind them are missing in the oncoming traffic.
 #pragma once
 
 #include <array>
@@ -40,7 +40,8 @@ struct LaneSaturation {
     double flow_veh_h = 0.0;
     double startup_lost_time_s = 0.0;  // NaN: no queue of five vehicles passes in a green
     double vehicles_per_green = 0.0;
-    // Variance of the vehicles that pass in a green, over their mean. 0 without left turns, where it is negligible.
+    // Variance of the number of vehicles that pass in a green, over its mean. 0 without left turns, where it is
+    // negligible.
     double capacity_variance_ratio = 0.0;
 };
 

@@ -51,10 +51,10 @@ void mark_critical_lanes(PopulationTiming& timing) {
     }
 }
 
-// Sets what the HCM predicts for each lane with the times of the signal. If the capacity changes from cycle to cycle, its
-// variance adds to that of the arrivals. The mean queue in heavy traffic grows with the sum of both (J. F. C. Kingman,
-// On queues in heavy traffic, J. Royal Statistical Society B 24, 1962). So the factor I of the HCM, which is the ratio
-// of variance and mean of the arrivals, becomes the sum of both ratios.
+// Sets what the HCM predicts for each lane with the times of the signal. If the capacity changes from cycle to cycle,
+// its variance adds to that of the arrivals. The mean queue in heavy traffic grows with the sum of both (J. F. C.
+// Kingman, On queues in heavy traffic, J. Royal Statistical Society B 24, 1962). So the factor I of the HCM, which is
+// the ratio of variance and mean of the arrivals, becomes the sum of both ratios.
 void predict(PopulationTiming& timing) {
     double delay_s = 0.0;
     double demand_veh_h = 0.0;

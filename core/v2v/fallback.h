@@ -33,8 +33,8 @@ inline constexpr double kLongestPlatoonLeaderAge_s = 0.15;  // of a message of t
 
 // Returns the smallest string-stable time gap of a CACC whose messages have an age, s. Computed for the default gains
 // (0.2 1/s2 and 0.7 1/s), a lag of 0.1 s of the powertrain, and a radar without delay; linear between the ages. A test
-// compares the values with the linear analysis (string_stability/string_limits.h), which would take too long at the start
-// of each run.
+// compares the values with the linear analysis (string_stability/string_limits.h), which would take too long at the
+// start of each run.
 double stable_time_gap_s(double age_s);
 
 // The mode of a vehicle, and its memory for the hysteresis. All members hold whole numbers.

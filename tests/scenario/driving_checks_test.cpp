@@ -116,7 +116,8 @@ TEST(DrivingChecks, MarginsCoverTheStepsOfAStop) {
 }
 
 // If the deceleration of a stop is near the emergency deceleration, a vehicle cannot stop in the step after the one in
-// which it reaches its place. With 5 m/s2 and 7 m/s2 it then overshoots by up to b (2 dt - tau)^2 / 2 - e dt^2, which is
+// which it reaches its place. With 5 m/s2 and 7 m/s2 it then overshoots by up to b (2 dt - tau)^2 / 2 - e dt^2, which
+// is
 // 2.5 - 1.75 = 0.75 m for steps of 0.5 s and without reaction time. One step alone would give 0.625 m.
 TEST(DrivingChecks, MarginsCoverTheLimitOfBraking) {
     const auto with_margin = [](const std::string& margin) {

@@ -56,11 +56,10 @@ INSTANTIATE_TEST_SUITE_P(
                       UnusedField{"approach", "signal.offset=5 s", "is for grids only"},
                       UnusedField{"intersection", "signal.offset=5 s", "is for grids only"},
                       UnusedField{"approach", "signal.cross_green=5 s", "is for intersections and grids only"},
-                      UnusedField{"approach", "signal.clock=7 h", "without signal.programmes"}));
+                      UnusedField{"approach", "signal.clock=7 h", "acts only with signal.programmes"}));
 
 TEST(UnusedFields, AGradientIsRefusedInTheMesoscaleMode) {
-    const std::string error =
-        error_of(network_of("approach"), {"fidelity=meso", "network.approach.gradient=3 %"});
+    const std::string error = error_of(network_of("approach"), {"fidelity=meso", "network.approach.gradient=3 %"});
     EXPECT_TRUE(contains(error, "--set 'network.approach.gradient=3 %': field 'network.approach.gradient'"));
     EXPECT_TRUE(contains(error, "no effect in the mesoscale mode"));
     EXPECT_EQ(error_of(network_of("approach"), {"network.approach.gradient=3 %"}), "");

@@ -208,8 +208,8 @@ TEST(Saturation, LeftTurnsLowerTheFlowOfTheirLane) {
     EXPECT_GT(freer.lanes[0].flow_veh_h, 1.1 * saturation.lanes[0].flow_veh_h);
 }
 
-// The short gaps of CDG let many vehicles pass in a green. They must all have stood in the queue: otherwise their number
-// and the headway of the queue do not fit together, and the lost time is below 0.
+// The short gaps of CDG let many vehicles pass in a green. They must all have stood in the queue: otherwise their
+// number and the headway of the queue do not fit together, and the lost time is below 0.
 TEST(Saturation, QueuesOfDenseVehiclesOutlastTheGreen) {
     const Scenario scenario =
         timed_intersection({"demand.inflow=4700 veh/h", "fidelity=meso", "meso=passages", "populations=[CDG]"});

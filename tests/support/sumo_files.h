@@ -201,8 +201,9 @@ inline std::string turnaround_net() {
            "</net>\n";
 }
 
-// Returns an edge a (100 m, one lane) that leads to d (right turn), c (straight on) and b (a slight left turn). Vehicles
-// to d diverge from the others after a few metres. Vehicles to b and to c diverge from each other after more than 30 m.
+// Returns an edge a (100 m, one lane) that leads to d (right turn), c (straight on) and b (a slight left turn).
+// Vehicles to d diverge from the others after a few metres. Vehicles to b and to c diverge from each other after more
+// than 30 m.
 inline std::string fork_net() {
     return R"(<net version="1.20">
 <edge id=":J_0" function="internal"><lane id=":J_0_0" index="0" speed="9" length="9.2" shape="0,-1.6 3,-2.2 5.2,-4.6 6,-8"/></edge>

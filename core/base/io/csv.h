@@ -38,7 +38,8 @@ struct CsvTable {
 };
 
 // Parses a table whose first line holds the column names. `label` names the file in error messages. Throws InputError
-// if the text is empty, semicolons separate its columns, a quote is not closed, or a row has the wrong number of fields.
+// if the text is empty, semicolons separate its columns, a quote is not closed, or a row has the wrong number of
+// fields.
 CsvTable parse_csv(std::string_view text, const std::string& label);
 
 // Converts the whole text to a number. Returns nothing if the text is not a finite number.

@@ -109,8 +109,8 @@ MetricList<Run> count_metrics(std::initializer_list<std::string_view> in_summary
          .value = [](const Run& run) { return run.counts().violations.lost_vehicles; }},
         {.column = "deadlocks",
          .extent = "run",
-         .meaning = "1 if a vehicle stays in the intersection for two of the longest possible cycles, and at least "
-                    "30 s, longer than the slowest unobstructed crossing takes, else 0; a violation",
+         .meaning = "1 if a vehicle stays in the intersection longer than the slowest unobstructed crossing plus "
+                    "two cycles of the greatest possible length (at least 30 s), else 0; a violation",
          .value = [](const Run& run) { return run.counts().violations.deadlocks; }},
         {.column = "updates",
          .extent = "run",

@@ -97,15 +97,15 @@ std::string warm_up_text(const NetworkReport& report, const TimeWindow& first) {
                                    report.scenario.duration_s);
     if (report.populations[0].series.size() < kMinWarmUpValues) {
         return text + fmt::format(
-                          "it is measured from its start. The run is too short to find the end of its warm-up; this "
-                          "takes at least {:g} min ({} times measure.interval). Increase 'duration' or reduce "
-                          "measure.window.",
+                          "the run is measured from its start, because it is too short to find the end of its "
+                          "warm-up. That takes at least {:g} min ({} times measure.interval). Increase 'duration', or "
+                          "set a measure.window shorter than the run.",
                           static_cast<double>(kMinWarmUpValues) * measure.interval_s / 60.0, kMinWarmUpValues);
     }
     text += "each population is measured from the end of its warm-up";
     const auto same = [&](const NetworkResult& f) { return f.measured.window.from_s == first.from_s; };
     if (!std::all_of(report.populations.begin(), report.populations.end(), same)) {
-        text += fmt::format("; these times are those of {}, the others are in summary.csv (window_from_s)",
+        text += fmt::format("; the printed times are those of {}, the others are in summary.csv (window_from_s)",
                             report.populations[0].population);
     }
     return text + ".";

@@ -307,7 +307,7 @@ MetricList<MeasuredNetwork> gridlock_metrics() {
          .value = [](const MeasuredNetwork& run) { return run.result.delays.refused; },
          .console = {.table = ConsoleTable::congestion,
                      .heading = "refused",
-                     .note = "times that rules.clearing began to hold a vehicle at its stop line (delay: "
+                     .note = "number of times that rules.clearing began to hold a vehicle at its stop line (delay: "
                              "delay_refusal_h in summary.csv)",
                      .asked_for = uses_clearing}},
         {.column = "refused_stop_h",

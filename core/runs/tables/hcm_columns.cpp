@@ -20,7 +20,8 @@ std::vector<ColumnDoc> hcm_columns() {
         {"end_gain_s", "s", "window",
          "mean time from the end of green to the passage of the last queued vehicle, in greens in which the queue does not clear; below 5 such "
          "greens the mean of all lanes, or 2 s if all lanes have fewer than 5"},
-        {"effective_green_s", "s", "window", "green minus start-up lost time plus end gain, for each green of a cycle"},
+        {"effective_green_s", "s", "window",
+         "sum over the greens of a cycle: green minus start-up lost time plus end gain"},
         {"capacity_veh_h", "veh/h", "window", "saturation flow times effective green, divided by the cycle"},
         {"volume_veh_h", "veh/h", "window",
          "vehicles that arrive: `passed_veh_h` plus the growth of the number of vehicles before the stop line. "
@@ -30,9 +31,9 @@ std::vector<ColumnDoc> hcm_columns() {
          "`volume_veh_h` divided by `capacity_veh_h`; approach and intersection: the highest of their lanes"},
         {"control_delay_s", "s", "window", "measured mean control delay of the vehicles that pass"},
         {"formula_delay_s", "s", "window",
-         "control delay by the formula: sum of the next three columns. These columns, `formula_queue_50_veh`, "
-         "`formula_queue_95_veh` and `formula_level_of_service` are empty for a lane with several greens in a cycle, "
-         "because the formulas assume a single one, and for the approach and the intersection of such a lane"},
+         "control delay by the formula: sum of the next three columns. Empty for a lane with several greens in a "
+         "cycle, and for its approach and intersection, because the formulas assume a single green. The next three "
+         "columns and all other `formula_` columns are then empty, too"},
         {"uniform_delay_s", "s", "window", "uniform delay d1"},
         {"incremental_delay_s", "s", "window", "incremental delay d2 for random arrivals, over the measured time"},
         {"initial_queue_delay_s", "s", "window", "delay d3 from the queue that stands before the first cycle"},

@@ -51,7 +51,7 @@ void refuse_signal_times(const Scenario& scenario, Checker& check) {
                     "is for intersections and grids only: a straight road has no crossing street");
     }
     if (scenario.signal.clock_s != 0.0) {
-        check.error("signal.clock", "is for intersections and grids only: it has no effect without signal.programmes");
+        check.error("signal.clock", "acts only with signal.programmes, which a straight road does not have");
     }
 }
 

@@ -49,8 +49,8 @@ void append_paths(const Table& table, const std::string& path, const std::string
     }
 }
 
-// Returns the paths of the fields with this name inside a table, those outside lists first. A list can repeat sections of
-// the table, such as populations[NAME].components[0].driver; their fields are left out.
+// Returns the paths of the fields with this name inside a table, those outside lists first. A list can repeat sections
+// of the table, such as populations[NAME].components[0].driver; their fields are left out.
 std::vector<std::string> paths_of_name(const Table& table, const std::string& path, const std::string& name) {
     std::vector<std::string> paths;
     append_paths(table, path, name, paths);

@@ -36,9 +36,10 @@ const Table& cacc_table() {
             number<&S::prediction_end_s>("prediction_end", "s", {0.01, 5}, "time from now to the end of that interval"),
             number<&S::acceleration_max_mps2>("acceleration_max", "m/s2", {0.1, 10},
                                               "maximum acceleration of a follower"),
-            number<&S::deceleration_comfort_mps2>("deceleration_comfort", "m/s2", {0.1, 10},
-                                                  "maximum deceleration of the following law (ISO 15622); a stop "
-                                                  "behind a queue or an emergency can brake harder"),
+            number<&S::deceleration_comfort_mps2>(
+                "deceleration_comfort", "m/s2", {0.1, 10},
+                "maximum deceleration of the following law (ISO 15622); a vehicle can brake "
+                "harder when it stops behind a queue, or in an emergency"),
             number<&S::deceleration_emergency_mps2>("deceleration_emergency", "m/s2", {0.1, 12},
                                                     "maximum deceleration in an emergency"),
             number<&S::emergency_threshold_mps2>("emergency_threshold", "m/s2", {0.1, 12},

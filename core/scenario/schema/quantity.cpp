@@ -75,7 +75,7 @@ std::string digits(double value) {
     return error == std::errc() ? std::string(text.data(), end) : std::string();
 }
 
-// Returns the problem of a number without unit. For a percentage, a plain number from 0 to 1 could mean a fraction, too.
+// Returns the problem of a number without unit. A plain number from 0 to 1 for a percentage could mean a fraction, too.
 std::string missing_unit(double value, std::string_view number, const Unit& expected) {
     const std::string written = "'" + shortened(number) + " " + std::string(expected.text) + "'";
     if (expected.text != "%" || value <= 0.0 || value > 1.0) return "has no unit: write e.g. " + written;

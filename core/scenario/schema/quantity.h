@@ -1,8 +1,8 @@
 // Quantities with units, as files write them: "50 km/h", "0.87 s", "2.5 m/s2", "30 %".
 //
 // A quantity must have a unit; none is assumed. A unit of the wrong dimension is an error. A percentage is written as
-// 30 % or as 0.3 fraction. Only a plain number, such as a platoon size, may have no unit. All values are converted to SI
-// units, except engine speeds, which stay in rpm, and fuel rates, which stay in g/h.
+// 30 % or as 0.3 fraction. Only a plain number, such as a platoon size, may have no unit. All values are converted to
+// SI units, except engine speeds, which stay in rpm, and fuel rates, which stay in g/h.
 #pragma once
 
 #include <string>

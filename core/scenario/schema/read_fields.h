@@ -9,8 +9,8 @@
 namespace stopline {
 
 // Reads a map of fields. `settings` points to a default-constructed struct of the table's type. `path` is the path of
-// the map in messages, "" for the root. `library`: folder of the data files that the map can name as its `base`; "": none.
-// The settings are usable only if the report has no error afterwards.
+// the map in messages, "" for the root. `library`: folder of the data files that the map can name as its `base`; "":
+// none. The settings are usable only if the report has no error afterwards.
 void read_fields(const Table& table, const SourceNode& node, const std::string& path, void* settings, Report& report,
                  const std::string& library = {});
 

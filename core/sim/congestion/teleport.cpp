@@ -63,9 +63,10 @@ bool trip_ends_on_next_edge(const State& state, const Itinerary& itinerary) {
     return itinerary.has_trip() && state.plan.turn_of_trip(itinerary.trip, itinerary.trip_edge + 1) == Turn::none;
 }
 
-// Returns the highest safe speed, at most `wanted_mps`, with which a vehicle can be reinserted on an empty lane. A result
-// below 0 means that the gap is too small. The leader is further downstream, but its rear can still be on the lane.
-// Without a trip, the next route of the vehicle is not known yet. The leader is then a vehicle in the diverge area.
+// Returns the highest safe speed, at most `wanted_mps`, with which a vehicle can be reinserted on an empty lane. A
+// result below 0 means that the gap is too small. The leader is further downstream, but its rear can still be on the
+// lane. Without a trip, the next route of the vehicle is not known yet. The leader is then a vehicle in the diverge
+// area.
 double speed_on_empty_lane_mps(const Model& model, const State& state, int lane, int slot, double front_m,
                                double wanted_mps) {
     const VehicleArrays& v = state.vehicles;
@@ -111,7 +112,7 @@ bool reinsert_teleported(const Model& model, State& state, int k) {
         const int last = block.last();
         const double room_m = rear_m(v, last) - front_m - static_cast<double>(v.standstill_gap_m[at(waiting)]);
         if (room_m < 0.0) return false;
-        // Our choice: the vehicle needs at least 2 s for the room up to its standstill gap.
+        // Our choice: the vehicle enters so slowly that it closes up to its standstill gap in 2 s or more.
         constexpr double kApproach_1ps = 0.5;
         speed_mps = std::min(v.speed_mps[at(last)], kApproach_1ps * room_m);
     }

@@ -47,8 +47,8 @@ bool is_connection_occupied(const Model& model, const State& state, int lane) {
                        [&](int connection) { return state.blocks[at(connection)].count > 0; });
 }
 
-// Returns the route of the next vehicle of an inlet, from the lane of the inlet on. Returns -1 if the vehicle must change
-// lanes for its turn.
+// Returns the route of the next vehicle of an inlet, from the lane of the inlet on. Returns -1 if the vehicle must
+// change lanes for its turn.
 int route_from_inlet(const Model& model, const State& state, int number) {
     const int lane = model.demand.inlets[at(number)].lane;
     const int route = state.insertion.inlets[at(number)].next_route;
@@ -61,17 +61,14 @@ int route_from_inlet(const Model& model, const State& state, int number) {
 Entry entry_on_empty_lane(const Model& model, const State& state, int number, int policy, double front_m,
                           double max_mps) {
     const int lane = model.demand.inlets[at(number)].lane;
-    const DriverPlan& driver = model.driver_of(policy);
     const RoutePosition position{route_from_inlet(model, state, number)};
     const LeaderAhead leader = leader_ahead(state, lane, front_m, position, model.common_driver().cacc.radar_range_m);
     if (leader.slot < 0) return {true, front_m, max_mps};
     const VehicleArrays& v = state.vehicles;
     const double leader_mps = v.speed_mps[at(leader.slot)];
     const double gap_m = rear_m(state, leader) - front_m;
-    const double braking_m = braking_distance_m(max_mps, leader_mps, driver.tables.stop.deceleration_mps2);
-    const bool is_far = gap_m >= desired_gap_m(model, policy, max_mps) + braking_m;
-    const double speed_mps = is_far ? max_mps : std::min(max_mps, leader_mps);
-    return {gap_m >= desired_gap_m(model, policy, speed_mps), front_m, speed_mps};
+    const double safe_mps = safe_entry_speed_mps(model, policy, gap_m, leader_mps, max_mps);
+    return {safe_mps >= 0.0, front_m, safe_mps};
 }
 
 // Returns the position and speed with which the next vehicle of an inlet can enter. On a link lane the new vehicle must

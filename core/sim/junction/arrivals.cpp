@@ -172,7 +172,7 @@ Arrival next_arrival(const Model& model, const State& state, const Conflict& con
     const int stopping = vehicle_stopping_at_signal(state, other.origin, conflict.other);
     const int held = vehicle_held_at_rest(model, state, other.origin);
     const auto is_ignored = [&](int slot) {
-        return search.ignores_stopped && v.speed_mps[at(slot)] < kCrawlingSpeed_mps;
+        return search.ignores_crawling && v.speed_mps[at(slot)] < kCrawlingSpeed_mps;
     };
     Arrival soonest;
     for (const JunctionOccupant& occupant : occupants_of(state, conflict.other)) {

@@ -55,7 +55,7 @@ struct Arrival {
 struct ArrivalSearch {
     double horizon_s = 0.0;          // time within which vehicles from further upstream can arrive
     double acceleration_mps2 = 0.0;  // assumed acceleration of arriving vehicles, up to the speed limit
-    bool ignores_stopped = false;    // true: ignores all vehicles slower than kCrawlingSpeed_mps
+    bool ignores_crawling = false;   // true: ignores all vehicles slower than kCrawlingSpeed_mps
 };
 
 // Returns the next arrival of a vehicle at the conflict area on connection `conflict.other`. The search covers the

@@ -138,7 +138,7 @@ GapBlocker find_gap_blocker(const Model& model, State& state, Partition& part, i
         const double until_s = needed_time_s(model, state, lane, conflict, candidate, wait_m, delay_s, has_begun);
         const Arrival arrival = next_arrival(
             model, state, conflict,
-            {.horizon_s = until_s, .acceleration_mps2 = acceleration_mps2, .ignores_stopped = resolution != nullptr});
+            {.horizon_s = until_s, .acceleration_mps2 = acceleration_mps2, .ignores_crawling = resolution != nullptr});
         next.keep_earlier(arrival.time_s, arrival.slot);
         next_needed_s = std::max(next_needed_s, until_s);
         if (arrival.time_s < until_s) return {arrival.slot, YieldReason::priority};

@@ -23,7 +23,7 @@ inline double rear_m(const State& state, const LeaderAhead& leader) {
 // The position of a vehicle on its route and on its trip. With a trip, the search for the leader continues beyond the
 // end of the route, on the later edges of the trip.
 struct RoutePosition {
-    int route = -1;  // -1: the vehicle has no route from its lane and must change lanes
+    int route = -1;  // -1: not known, or the vehicle must change lanes
     int route_index = 0;
     int trip = -1;  // -1: no trip
     int trip_edge = 0;

@@ -31,8 +31,8 @@ struct BlockerPass {
     bool begun = false;                      // true: both vehicles have been in one conflict area at the same time
 };
 
-// A decision that ends a deadlock: in a cycle of stopped vehicles that wait for each other, one vehicle proceeds before
-// its blocker.
+// A decision that ends a deadlock: in a cycle of stopped vehicles that wait for each other, one vehicle proceeds, and
+// the vehicle that it waits for yields to it.
 struct DeadlockResolution {
     int proceeds = -1;                  // id of the vehicle that proceeds
     int yields = -1;                    // id of its blocker, which yields

@@ -80,7 +80,7 @@ first_detector='import csv, sys; print(next(csv.DictReader(open(sys.argv[1])))["
 detector="$(python3 -c "$first_detector" "$work/whole/differences.csv")"
 with_parameters=("$work/timing.yaml" --step I --parameters "$work/whole/fitted.yaml" --accepted "$work/accepted.yaml")
 accepted "$permutation" foo
-refused "accepted.yaml:2:58: field 'accepted[0].detector': there is no detector 'foo'" "${with_parameters[@]}"
+refused "accepted.yaml:2:61: field 'accepted[0].detector': there is no detector 'foo'" "${with_parameters[@]}"
 grep -q "full dynamics:" "$work/stdout" && fail "the names of --accepted are checked after the runs"
 accepted "green = 11 s, population = CDG" "$detector"
 refused "there is no permutation 'green = 11 s, population = CDG'; did you mean '$permutation'? Known: 'green = 10 s, population = CTG-Ref', '" "${with_parameters[@]}"

@@ -39,14 +39,14 @@ has open "mean improvement: over all green times from 20 s to 60 s, at most unti
 grid=("$scenarios/grid.yaml" --set network.grid.columns=2 --set network.grid.rows=2 --set 'populations=[CDG]'
     --set measure.baseline=CDG --set 'duration=300 s')
 report plain "${grid[@]}"
-has plain "The rest of it is due to signals, yielding and queue discharge (summary.csv)."
+has plain "The rest of the delay is due to signals, yielding and queue discharge (summary.csv)."
 lacks plain "refus"
 has plain "semi-stable: gridlocks or teleported vehicles, but all gridlocks dissolve, and less than 1 % of the vehicles"
-has plain "the run lasts 300 s: it is measured from its start. The run is too short to find the end of its warm-up"
+has plain "the run lasts 300 s: the run is measured from its start, because it is too short to find the end of its warm-up"
 report clearing "${grid[@]}" --set rules.clearing=cooperative
 has clearing "due to signals, yielding, queue discharge and refusals by cooperative clearing (summary.csv)."
 has clearing "teleported blockers refused"
-has clearing "refused: times that rules.clearing began to hold a vehicle at its stop line"
+has clearing "refused: number of times that rules.clearing began to hold a vehicle at its stop line"
 report long "${grid[@]}" --set 'duration=900 s' --set 'measure.interval=60 s'
 has long "the run lasts 900 s: each population is measured from the end of its warm-up."
 

@@ -184,12 +184,9 @@ private:
             perception_.beyond(lane.number, front_m, {route, 0}, w_.common_driver().cacc.radar_range_m);
         if (leader.vehicle == nullptr) return Entry{front_m, highest_mps};
         const double gap_m = leader.rear_m() - front_m;
-        const double b = w_.kind(policy).settings().stop.deceleration_mps2;
         const double leader_mps = leader.vehicle->speed_mps;
-        const bool is_far = gap_m >= w_.desired_gap_m(policy, highest_mps) + braking_m(highest_mps, leader_mps, b);
-        const double speed_mps = is_far ? highest_mps : std::min(highest_mps, leader_mps);
-        if (gap_m < w_.desired_gap_m(policy, speed_mps)) return std::nullopt;
-        return Entry{front_m, speed_mps};
+        if (gap_m < w_.desired_gap_m(policy, std::min(highest_mps, leader_mps))) return std::nullopt;
+        return Entry{front_m, safe_mps(policy, gap_m, leader_mps, highest_mps)};
     }
 
     void insert(std::size_t number, const Entry& entry) {

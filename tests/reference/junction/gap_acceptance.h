@@ -172,13 +172,13 @@ private:
 
     // Returns the next arrival at a conflict area on the other connection, as the vehicle `yielding` expects it: on the
     // connection, on its approach lane, or from upstream within `horizon_s`. Vehicles that let others go or are in a
-    // queue do not arrive soon, nor do vehicles behind them. `ignores_stopped`: nor do slow vehicles.
+    // queue do not arrive soon, nor do vehicles behind them. `ignores_crawling`: nor do slow vehicles.
     Arrival next_arrival(const Vehicle& yielding, const Conflict& conflict, double horizon_s,
-                         bool ignores_stopped) const {
+                         bool ignores_crawling) const {
         const Lane& other = w_.lane(conflict.other);
         Lane& approach = w_.lane(other.origin);
         const Vehicle* const stopping = stopping_at_signal(approach, conflict.other);
-        const auto is_ignored = [&](const Vehicle& v) { return ignores_stopped && v.is_slow(); };
+        const auto is_ignored = [&](const Vehicle& v) { return ignores_crawling && v.is_slow(); };
         Arrival soonest;
         for (const Occupant& occupant : w_.occupants[static_cast<std::size_t>(conflict.other)]) {
             Vehicle& v = *occupant.vehicle;

@@ -250,9 +250,9 @@ TEST(SumoRun, ReportsTheMeasuredWindow) {
               "Measured from 120 to 240 s. measure.window gives 100 to 260 s; only whole intervals of 60 s "
               "(measure.interval) are measured.");
     EXPECT_EQ(window(240.0, 500.0),
-              "Measured from 0 to 240 s. measure.window is 500 s, but the run lasts 240 s: it is measured from its "
-              "start. The run is too short to find the end of its warm-up; this takes at least 15 min (15 times "
-              "measure.interval). Increase 'duration' or reduce measure.window.");
+              "Measured from 0 to 240 s. measure.window is 500 s, but the run lasts 240 s: the run is measured from "
+              "its start, because it is too short to find the end of its warm-up. That takes at least 15 min (15 times "
+              "measure.interval). Increase 'duration', or set a measure.window shorter than the run.");
     EXPECT_NE(window(890.0, 1000.0).find("too short to find the end of its warm-up"), std::string::npos);
     const std::string long_run = window(900.0, 1000.0);
     EXPECT_NE(long_run.find("to 900 s. measure.window is 1000 s, but the run lasts 900 s: each population is measured "

@@ -37,8 +37,8 @@ const Table& energy_table() {
             choice<&S::source>("source", {"fuel", "battery"}, "fuel: combustion engine; battery: electric motor"),
             curve<&S::fuel_rate>(
                 "fuel_rate", {"kW", {0, 2000}}, {"g/h", {0, 1'000'000}}, {2, 200},
-                "fuel rate by engine power, from 0 kW on; beyond the last point it rises with the last "
-                "slope; when the wheels drive the engine, the rate falls from the value at 0 kW to "
+                "fuel rate by engine power, from 0 kW on; beyond the last point, it rises with the "
+                "slope of the last segment; when the wheels drive the engine, the rate falls from the value at 0 kW to "
                 "0 g/h at the drag torque")
                 .required()
                 .only_if("source", {"fuel"}),

@@ -121,7 +121,7 @@ public:
         const auto element = [&](const auto& array) { visit(array.data() + lane, array.data() + lane + 1); };
         element(lanes_), element(diverges_), element(movement_groups_), element(may_wait_inside_), element(stop_rules_);
         next_.visit_memory(lane, visit), conflicting_.visit_memory(lane, visit);
-        diverge_ends_.visit_memory(lane, visit);
+        if (diverges_[static_cast<std::size_t>(lane)].differs) diverge_ends_.visit_memory(lane, visit);
         model_conflicts_ == nullptr ? own_conflicts_.visit_offsets(lane, visit) : element(*model_conflicts_);
         if (adjacent_index_[static_cast<std::size_t>(lane)] == 0) return;
         for (const TurnOption& option : adjacent(lane).turn_options) {
