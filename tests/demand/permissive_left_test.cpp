@@ -185,9 +185,12 @@ MeasuredFlow mean_flow(const Drivers& drivers, double opposing_veh_h, double to_
 // The second vehicle of a queue waits at the stop line while the first one waits inside the intersection. So the step
 // from one vehicle to two is longer than the later steps. The two parameters of hcm_veh_h() cannot express this: where
 // the opposing flow leaves room for hardly more than one vehicle in a headway, the fitted critical gap is too long.
-// Therefore hcm_veh_h() is compared up to kMaxForFit_veh_h only, and the sum over the shortest headways everywhere.
+// Therefore hcm_veh_h() is compared up to kMaxForFit_veh_h only, and the sum over the shortest headways up to
+// kMaxForRandom_veh_h. In denser traffic the opposing headways are not exponential: vehicles keep the gap of their policy
+// and bunch.
 void compare(const std::vector<double>& opposing_veh_h, double to_s, int seeds) {
     constexpr double kMaxForFit_veh_h = 600.0;
+    constexpr double kMaxForRandom_veh_h = 800.0;
     constexpr double kTolerance = 0.1;
     const GapAcceptance gap = measured_gap_acceptance(kDefault);
     std::printf(
@@ -209,6 +212,7 @@ void compare(const std::vector<double>& opposing_veh_h, double to_s, int seeds) 
             opposing, mean, flow.error_veh_h, expected, 100.0 * (mean / expected - 1.0), fitted,
             100.0 * (mean / fitted - 1.0), standard, 100.0 * (mean / standard - 1.0));
         EXPECT_LT(flow.error_veh_h, 0.02 * expected) << "too few seeds";
+        if (opposing > kMaxForRandom_veh_h) continue;
         EXPECT_NEAR(mean, expected, kTolerance * expected) << "opposing flow " << opposing;
         if (opposing > kMaxForFit_veh_h) continue;
         EXPECT_NEAR(mean, fitted, kTolerance * fitted) << "opposing flow " << opposing;

@@ -52,8 +52,7 @@ const Damage kDamages[] = {
          s.median_m = 3.0;
          s.intersections[0].legs[0].lanes.insert(s.intersections[0].legs[0].lanes.begin(), {"left", 50.0});
      },
-     "intersections[first].legs[0].lanes",
-     "1 of 3.5 m do not fit into the 3 m of median; set median to at least 3.5 m"},
+     "intersections[first].legs[0].lanes", "their width, 1 x 3.5 m, exceeds median, 3 m; set median to at least 3.5 m"},
     {"vehicles on neighbouring lanes touch", [](StreetSettings& s) { s.clearance_m = 3.2; }, "clearance",
      "value 3.2 m is too large for lanes of 3.5 m: vehicles on neighbouring lanes would touch. The maximum is 3 m"},
     {"lanes as wide as a vehicle", [](StreetSettings& s) { s.lane_width_m = 2.0; }, "clearance",

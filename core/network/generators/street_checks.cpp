@@ -193,9 +193,10 @@ private:
         if (left * s_.lane_width_m > median_m + kTolerance) {
             add_problem(
                 leg.field + ".lanes",
-                fmt::format("pockets on the left lie in the median: {} of {:g} m do not fit into the {:g} m of {}; set "
-                            "{} to at least {:g} m, or move the pockets to the right",
-                            left, s_.lane_width_m, median_m, field, field, left * s_.lane_width_m));
+                fmt::format(
+                    "pockets on the left lie in the median, but their width, {} x {:g} m, exceeds {}, {:g} m; set "
+                    "{} to at least {:g} m, or move the pockets to the right",
+                    left, s_.lane_width_m, field, median_m, field, left * s_.lane_width_m));
         }
         const bool crossed = std::any_of(kTurns.begin(), kTurns.end(), [&](Turn turn) {
             return turn != Turn::straight && layout_.leg(leg.node, exit_side(leg.side, turn)) != nullptr;
