@@ -1,11 +1,11 @@
-// The delay at a fixed-time signal with Poisson arrivals, against Webster's formula (1958). Saturation flow, capacity and
-// free-flow time are measured in the same model. q is the flow in vehicles per second.
+// The delay at a fixed-time signal with Poisson arrivals, against Webster's formula (1958). Saturation flow, capacity
+// and free-flow time are measured in the same model. q is the flow in vehicles per second.
 //
 //     d = d1 + X^2 / (2 q (1 - X)) - 0.65 (C / q^2)^(1/3) X^(2 + 5 g/C)
 //     d1 = 0.5 C (1 - g/C)^2 / (1 - min(1, X) g/C)
 //
-// Webster's formula holds for steady traffic. Near the capacity an hour does not suffice for that. There the random delay
-// d2 of the Highway Capacity Manual, which depends on the time T, takes the place of its last two terms.
+// Webster's formula holds for steady traffic. Near the capacity an hour does not suffice for that. There the random
+// delay d2 of the Highway Capacity Manual, which depends on the time T, takes the place of its last two terms.
 //
 //     d2 = 900 T [(X - 1) + sqrt((X - 1)^2 + 8 k I X / (c T))],   k = 0.5, I = 1, T in hours, c in vehicles per hour
 #include <gtest/gtest.h>
