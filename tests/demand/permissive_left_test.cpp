@@ -186,8 +186,8 @@ MeasuredFlow mean_flow(const Drivers& drivers, double opposing_veh_h, double to_
 // from one vehicle to two is longer than the later steps. The two parameters of hcm_veh_h() cannot express this: where
 // the opposing flow leaves room for hardly more than one vehicle in a headway, the fitted critical gap is too long.
 // Therefore hcm_veh_h() is compared up to kMaxForFit_veh_h only, and the sum over the shortest headways up to
-// kMaxForRandom_veh_h. In denser traffic the opposing headways are not exponential: vehicles keep the gap of their policy
-// and bunch.
+// kMaxForRandom_veh_h. In denser traffic the opposing headways are not exponential: vehicles keep the gap of their
+// policy and bunch.
 void compare(const std::vector<double>& opposing_veh_h, double to_s, int seeds) {
     constexpr double kMaxForFit_veh_h = 600.0;
     constexpr double kMaxForRandom_veh_h = 800.0;
