@@ -52,7 +52,8 @@ std::string warnings_text(const NetworkReport& report) {
 // Names the causes of delay that the table of shares leaves out.
 std::string other_causes_text(const Scenario& scenario) {
     if (scenario.rules.clearing == "cooperative") {
-        return "The rest of the delay is due to signals, yielding, queue discharge and refusals by cooperative clearing\n"
+        return "The rest of the delay is due to signals, yielding, queue discharge and "
+               "refusals by cooperative clearing\n"
                "(summary.csv).\n";
     }
     return "The rest of the delay is due to signals, yielding and queue discharge (summary.csv).\n";

@@ -119,7 +119,8 @@ std::string queue_text(const SingleLightReport& result) {
     }
     if (names.empty()) return "";
     return "The end of the queue has not closed up when the green starts (largest net gap):\n  " + names +
-           "\n  This matters only if vehicles behind the open gap pass within the green. Then set a later signal.first_green.\n\n";
+           "\n  This matters only if vehicles behind the open gap pass within the green. "
+           "Then set a later signal.first_green.\n\n";
 }
 
 std::string violations_text(const SingleLightReport& result) {

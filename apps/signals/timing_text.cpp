@@ -66,8 +66,8 @@ std::string assumptions_text(const std::vector<PopulationTiming>& timings, const
         notes.emplace_back(
             "Left turns yield to oncoming traffic. The flow of a lane with left turns is measured with a queue on its own "
             "leg, and with the demand on the oncoming leg. Its capacity changes from cycle to cycle. d2 includes the "
-            "delay that this causes. The simulated delay of such a lane can still be much higher: add --search to check "
-            "it.");
+            "delay that this causes. The simulated delay of such a lane can still be much higher: add --search to "
+            "check it.");
     }
     if (is_network) {
         notes.emplace_back(

@@ -154,7 +154,8 @@ std::vector<TableDoc> signal_timing_tables() {
               {"effective_green_s", "s", "", "green, yellow and all red minus `lost_time_s`"},
               {"capacity_veh_h", "veh/h", "", "capacity"},
               {"capacity_variance_ratio", "", "saturated run",
-               "variance of the number of vehicles that pass in a green, over its mean; 0 for lanes without left turns"},
+               "variance of the number of vehicles that pass in a green, over its mean; 0 for lanes without left "
+               "turns"},
               {"saturation_degree", "", "", "demand over capacity"},
               {"uniform_delay_s", "s", "", "uniform delay d1 of the HCM"},
               {"incremental_delay_s", "s", "",
