@@ -119,7 +119,6 @@ std::vector<TableDoc> other_program_tables() {
 
 std::vector<TableDoc> signal_timing_tables() {
     const ColumnDoc level{"level_of_service", "", "", "level of service by the HCM, A to F"};
-    const std::string objective_unit = "of the objective";
     return {
         {"signals/timing.csv",
          "One row for each population. Cells of times are empty if the demand is too high for a timing.",
@@ -162,6 +161,12 @@ std::vector<TableDoc> signal_timing_tables() {
                "incremental delay d2 of the HCM, for random arrivals and with the variance of the capacity"},
               {"delay_s", "s", "", "d1 plus d2"},
               level})},
+    };
+}
+
+std::vector<TableDoc> signal_search_tables() {
+    const std::string objective_unit = "of the objective";
+    return {
         {"signals/search_POPULATION.csv",
          "With `--search`. One row for each run.",
          {{"point", "", "", "number of the run"},
@@ -206,6 +211,7 @@ std::vector<TableDoc> program_table_docs() {
     std::vector<TableDoc> tables = calibration_tables();
     for (TableDoc& table : other_program_tables()) tables.push_back(std::move(table));
     for (TableDoc& table : signal_timing_tables()) tables.push_back(std::move(table));
+    for (TableDoc& table : signal_search_tables()) tables.push_back(std::move(table));
     return tables;
 }
 
