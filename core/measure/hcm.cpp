@@ -18,22 +18,33 @@ namespace {
 constexpr double kSeconds = 3600.0;        // per hour
 constexpr double kLongestHeadway_s = 4.0;  // between two vehicles of a discharging queue
 
-// A cycle of a lane, from start of red to start of red: one interval for each of its greens.
+// A cycle of a lane: one interval for each of its greens, or an interval without green.
 using LaneCycle = std::span<const HcmInterval>;
+
+// Returns the number of greens that end in the intervals.
+std::size_t greens_in(std::span<const HcmInterval> intervals) {
+    return static_cast<std::size_t>(std::count_if(intervals.begin(), intervals.end(), [](const HcmInterval& interval) {
+        return interval.has_green() && !interval.green_goes_on;
+    }));
+}
 
 // Returns the cycles that lie within the window and whose greens are all recorded.
 std::vector<LaneCycle> cycles_within(const HcmRecord& record, const TimeWindow& window) {
     std::vector<LaneCycle> cycles;
+    if (greens_in(record.intervals) == 0) return cycles;
     std::size_t most_greens = 0;
     for (auto first = record.intervals.begin(); first != record.intervals.end();) {
         const auto is_other = [&](const HcmInterval& i) { return i.cycle < 0 || i.cycle != first->cycle; };
         const auto last = std::find_if(std::next(first), record.intervals.end(), is_other);
         cycles.emplace_back(first, last);
-        most_greens = std::max(most_greens, cycles.back().size());
+        most_greens = std::max(most_greens, greens_in(cycles.back()));
         first = last;
     }
-    // The record can begin within a cycle, and it can end before the last green of a cycle.
-    if (!cycles.empty() && cycles.back().size() < most_greens) cycles.pop_back();
+    // The record can begin within a cycle. It can also end within a cycle, before the last green of this cycle.
+    if (!cycles.empty()) {
+        const bool may_have_more = cycles.back().front().cycle == record.last_cycle;
+        if (may_have_more && greens_in(cycles.back()) < most_greens) cycles.pop_back();
+    }
     std::erase_if(cycles, [&](const LaneCycle& cycle) {
         const bool has_begun_before = cycle.front().cycle >= 0 && cycle.front().cycle == record.first_cycle;
         return has_begun_before || cycle.front().from_s < window.from_s || cycle.back().to_s > window.to_s;
@@ -115,7 +126,9 @@ HcmRow measured_row(const LaneGraph& graph, const HcmRecord& record, const std::
     const TimeWindow whole{intervals.front().from_s, intervals.back().to_s};
     row.cycles = static_cast<int>(cycles.size());
     row.cycle_s = whole.length_s() / row.cycles;
-    row.greens_per_cycle = static_cast<double>(intervals.size()) / row.cycles;
+    row.greens_per_cycle = static_cast<double>(greens_in(intervals)) / row.cycles;
+    row.has_several_greens =
+        std::any_of(cycles.begin(), cycles.end(), [](const LaneCycle& cycle) { return greens_in(cycle) > 1; });
     measure_queues(cycles, row);
     row.discharge = discharge_of(graph, record, whole, row.cycle_s);
     measure_end_gain(intervals, record.passages, row);
@@ -204,7 +217,7 @@ void apply_equations(HcmRow& row) {
     }
     row.saturation = row.volume_veh_h / row.capacity_veh_h;
     // The formulas hold for one red and one green in a cycle.
-    if (row.greens_per_cycle > 1.0) {
+    if (row.has_several_greens) {
         for (double* value : {&row.uniform_delay_s, &row.incremental_delay_s, &row.initial_queue_delay_s,
                               &row.formula_back_50_veh, &row.formula_back_95_veh}) {
             *value = kNan;

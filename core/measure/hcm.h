@@ -1,13 +1,20 @@
 // The report of a signal by the Highway Capacity Manual (HCM, 6th edition, chapters 19 and 31): saturation flow,
-// capacity, control delay, stops, back of queue and level of service of each lane. The value of the HCM formula stands
-// beside each measured value.
+// capacity, control delay, stops, back of queue and level of service of each lane. Each measured value comes with the
+// value of the HCM formula.
 //
 // Control delay is the travel time minus the time at free-flow speed. It begins when a vehicle enters the lane of the
 // stop line, or when it slows for this signal if it still accelerates from the last one. It ends when the vehicle
 // reaches kFreeFlowShare of its free-flow speed beyond the stop line. The free-flow speed on a connection is the limit
 // of the connection, so that slow driving inside a turn is no delay.
 //
-// All values of a lane cover whole cycles of its signal within the window, from start of red to start of red.
+// All values of a lane cover whole cycles of its signal within the window. The controller's cycle counts, so all lanes
+// of a signal have the same number of cycles, give or take one:
+//   - A green belongs to the cycle of the signal in which it ends. The cycle of the lane lasts until the red after its
+//     last green begins.
+//   - A controller can skip the phase of a lane. The lane then has a cycle without green, which lasts until the next
+//     cycle of the signal begins.
+//   - A green can last through a whole cycle of the signal. The cycle of the lane then ends with that of the signal.
+// Without a controller's cycle, as with an external controller, each green with the red before it is a cycle.
 #pragma once
 
 #include <cstdint>
@@ -31,12 +38,13 @@ struct HcmPassage {
 };
 
 // A red of a lane and the green after it, from start of red to start of red. A cycle of the signal can have several
-// intervals, such as a protected and a permissive green of a left turn.
+// intervals, such as a protected and a permissive green of a left turn. An interval without green is a cycle in which
+// the controller skips the lane.
 struct HcmInterval {
     double from_s = 0.0;
     double to_s = 0.0;
     double green_from_s = 0.0;
-    double green_to_s = 0.0;
+    double green_to_s = 0.0;  // equal to green_from_s: no green
     int back_veh = 0;             // vehicles in the queue at the start of red, and vehicles that joined it later
     double back_m = 0.0;          // greatest distance from the stop line to the rear of a queued vehicle
     int residual_veh = 0;         // queued vehicles that have not passed at the end of the interval
@@ -44,10 +52,13 @@ struct HcmInterval {
     bool is_used = false;         // queued vehicles are left at the end of green
     int residual_before_veh = 0;  // residual_veh and present_veh at the start of the interval
     int present_before_veh = 0;
-    // Number of the cycle of the signal in which the interval ends. Intervals with the same number are one cycle of the
+    // Number of the cycle of the signal in which the green ends. Intervals with the same number are one cycle of the
     // lane. -1: the interval is a cycle of its own.
     std::int64_t cycle = -1;
-    int teleported_veh = 0;  // vehicles that a teleport removed before the stop line
+    int teleported_veh = 0;      // vehicles that a teleport removed before the stop line
+    bool green_goes_on = false;  // the cycle ends within a green; the rest of this green is in the next interval
+
+    bool has_green() const { return green_to_s > green_from_s; }
 };
 
 // The record of a lane during a run.
@@ -57,6 +68,7 @@ struct HcmRecord {
     std::string intersection;
     bool has_endless_demand = false;     // a vehicle always waits to enter the lane
     std::int64_t first_cycle = -1;       // number of the cycle in which the first interval begins; -1: not known
+    std::int64_t last_cycle = -1;        // number of the cycle in which the record ends; -1: not known
     std::vector<HcmInterval> intervals;  // in order of time, without gaps
     std::vector<HcmPassage> passages;    // in order of time
     std::vector<double> green_starts_s;
@@ -80,6 +92,7 @@ struct HcmRow {
     double cycle_s = 0.0;
     double green_s = 0.0;  // sum over the greens of a cycle
     double greens_per_cycle = 0.0;
+    bool has_several_greens = false;  // in one of the cycles or more
     LaneDischarge discharge;
     int used_greens = 0;                 // greens for which the queue lasts
     double saturation_flow_veh_h = 0.0;  // fewer than kMinGreens saturated greens: mean of all lanes
@@ -91,7 +104,7 @@ struct HcmRow {
     double passed_veh_h = 0.0;  // vehicles that pass the stop line
     double saturation = 0.0;    // degree of saturation X, volume over capacity
     double control_delay_s = 0.0;
-    // Values of the formula. They hold for one green in a cycle: NaN for lanes that have more.
+    // Values of the formula. They hold for one green in a cycle: NaN for lanes that have more in any cycle.
     double uniform_delay_s = 0.0;        // d1
     double incremental_delay_s = 0.0;    // d2
     double initial_queue_delay_s = 0.0;  // d3
@@ -121,7 +134,7 @@ inline constexpr int kMinGreens = 5;
 double percentile(std::vector<double> values, double share);
 
 // Returns the rows of the lanes, then of the approaches, then of the intersections. Lanes without a whole cycle in the
-// window have no row.
+// window, and lanes whose green never ends in the record, have no row.
 std::vector<HcmRow> hcm_rows(const LaneGraph& graph, const std::vector<HcmRecord>& records, const TimeWindow& window);
 
 }  // namespace stopline

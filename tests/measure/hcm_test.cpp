@@ -108,11 +108,87 @@ TEST(Hcm, CountsWholeCyclesOfTwoGreensOnly) {
     const std::vector<std::int64_t> cycles{4, 5, 5, 6, 6, 7};  // the record begins and ends within a cycle
     for (std::size_t k = 0; k < 6; ++k) record.intervals[k].cycle = cycles[k];
     record.first_cycle = 4;
+    record.last_cycle = 7;
     EXPECT_EQ(rows_of({record}).front().cycles, 2);
     EXPECT_NEAR(rows_of({record}).front().cycle_s, 2.0 * kCycle_s, 1e-9);
     const HcmRow later = rows_of({record}, {130.0, 1e6}).front();
     EXPECT_EQ(later.cycles, 1);
     EXPECT_EQ(rows_of({record}, {0.0, 290.0}).front().cycles, 1);
+}
+
+// The last cycle has one green only. It is complete because the record ends in the next cycle.
+TEST(Hcm, ACycleWithFewerGreensIsCompleteWhenTheNextOneHasBegun) {
+    HcmRecord record = saturated_lane(6);
+    const std::vector<std::int64_t> cycles{4, 5, 5, 6, 6, 7};
+    for (std::size_t k = 0; k < 6; ++k) record.intervals[k].cycle = cycles[k];
+    record.first_cycle = 4;
+    record.last_cycle = 8;
+    EXPECT_EQ(rows_of({record}).front().cycles, 3);
+    EXPECT_NEAR(rows_of({record}).front().cycle_s, 5.0 / 3.0 * kCycle_s, 1e-9);
+}
+
+// The controller skips the lane in every second cycle: its queue passes in the other cycles.
+TEST(Hcm, CyclesWithoutGreenCount) {
+    HcmRecord record = saturated_lane(10);
+    std::vector<HcmInterval> intervals;
+    for (int k = 0; k < 10; ++k) {
+        HcmInterval served = record.intervals[static_cast<std::size_t>(k)];
+        served.cycle = 2 * k + 1;
+        served.residual_veh = 0;
+        HcmInterval skipped;
+        skipped.from_s = served.from_s;
+        skipped.to_s = served.from_s = served.from_s + 20.0;
+        skipped.cycle = 2 * k;
+        skipped.back_veh = 4;
+        skipped.residual_veh = 4;
+        intervals.push_back(skipped);
+        intervals.push_back(served);
+    }
+    record.intervals = intervals;
+    record.last_cycle = 20;
+    const HcmRow row = rows_of({record}).front();
+    EXPECT_EQ(row.cycles, 20);
+    EXPECT_NEAR(row.cycle_s, 0.5 * kCycle_s, 1e-9);
+    EXPECT_NEAR(row.green_s, 0.5 * kGreen_s, 1e-9);
+    EXPECT_NEAR(row.greens_per_cycle, 0.5, 1e-9);
+    EXPECT_NEAR(row.effective_green_s, 0.5 * 28.0, 1e-9);
+    EXPECT_NEAR(row.capacity_veh_h, 14.0 * 3600.0 / kCycle_s, 1e-9);
+    EXPECT_NEAR(row.residual_share, 0.5, 1e-9);
+    EXPECT_NEAR(row.back_50_veh, 10.0, 1e-9);  // between 4 and 16
+    EXPECT_FALSE(std::isnan(row.formula_delay_s()));
+}
+
+// The green of every second cycle lasts until the end of the next cycle of the signal.
+TEST(Hcm, AGreenThroughTwoCyclesIsOneGreen) {
+    HcmRecord record = saturated_lane(10);
+    std::vector<HcmInterval> intervals;
+    for (const HcmInterval& whole : record.intervals) {
+        HcmInterval first = whole;
+        first.cycle = 2 * static_cast<std::int64_t>(intervals.size() / 2);
+        first.to_s = first.green_to_s = whole.green_from_s + 10.0;
+        first.green_goes_on = true;
+        first.is_used = false;
+        HcmInterval rest = whole;
+        rest.cycle = first.cycle + 1;
+        rest.from_s = rest.green_from_s = first.to_s;
+        intervals.push_back(first);
+        intervals.push_back(rest);
+    }
+    record.intervals = intervals;
+    record.last_cycle = 20;
+    const HcmRow row = rows_of({record}).front();
+    EXPECT_EQ(row.cycles, 20);
+    EXPECT_NEAR(row.green_s, 0.5 * kGreen_s, 1e-9);
+    EXPECT_NEAR(row.greens_per_cycle, 0.5, 1e-9);
+    EXPECT_FALSE(row.has_several_greens);
+    EXPECT_NEAR(row.effective_green_s, 0.5 * 28.0, 1e-9);
+    EXPECT_NEAR(row.capacity_veh_h, 14.0 * 3600.0 / kCycle_s, 1e-9);
+}
+
+TEST(Hcm, ALaneThatIsAlwaysSkippedHasNoRow) {
+    HcmRecord record = saturated_lane(10);
+    for (HcmInterval& interval : record.intervals) interval.green_to_s = interval.green_from_s;
+    EXPECT_TRUE(rows_of({record}).empty());
 }
 
 TEST(Hcm, GrowingQueueIsOversaturatedAndHasLevelF) {

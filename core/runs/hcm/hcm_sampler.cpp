@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include "base/containers/index.h"
 #include "base/speed_thresholds.h"
@@ -56,6 +57,7 @@ HcmSampler::HcmSampler(const Scenario& scenario, const Model& model)
             scenario.demand.kind == "saturated" && planned.vehicles > 0 && planned.headway_s <= 0.0;
     }
     open_.resize(records_.size());
+    lane_cycles_.resize(records_.size());
 }
 
 HcmSampler::Track& HcmSampler::track_of(int vehicle) {
@@ -71,7 +73,8 @@ void HcmSampler::sample(const State& state) {
         if (state.blocks[at(lane)].first < state.blocks[at(lane)].past_last()) visit_lane(state, lane);
     }
     note_lights(state);
-    cycles_.update(state);  // a red that begins together with a new cycle ends the old cycle
+    cycles_.update(state);  // a green that ends together with the start of a new cycle belongs to the old cycle
+    note_cycles(state);
 }
 
 // Moves vehicles that have passed a stop line from their approach to HcmRecord::passages.
@@ -161,24 +164,59 @@ void HcmSampler::note_lights(const State& state) {
             } else if (lights_[group] == Light::green) {
                 interval.green_to_s = since_s;
                 interval.is_used = queued_before_line(state, record) > 0;
+                lane_cycles_[at(record)].of_last_green = cycles_.number(static_cast<int>(group));
             }
-            if (light == Light::red) begin_interval(state, record, since_s);
+            if (light == Light::red) end_green_interval(state, record, since_s);
         }
         lights_[group] = light;
     }
 }
 
-void HcmSampler::begin_interval(const State& state, int record, double now_s) {
+// Ends the interval of a lane at the start of a red, unless the interval has had no green.
+void HcmSampler::end_green_interval(const State& state, int record, double now_s) {
+    const bool has_begun = open_[at(record)].has_begun;
+    std::int64_t& cycle = lane_cycles_[at(record)].of_last_green;
+    if (has_begun && !open_[at(record)].interval.has_green()) return;
+    if (cycle == SignalCycles::kNoCycle) cycle = cycles_.number(group_of(record));  // the run began with yellow
+    begin_interval(state, record, now_s, cycle);
+}
+
+// Ends the interval of each lane in whose last cycle no green has ended, when the next cycle of its signal begins.
+void HcmSampler::note_cycles(const State& state) {
+    for (int record = 0; record < static_cast<int>(records_.size()); ++record) {
+        const int group = group_of(record);
+        LaneCycles& cycles = lane_cycles_[at(record)];
+        const std::int64_t ended = std::exchange(cycles.present, cycles_.number(group));
+        records_[at(record)].last_cycle = cycles.present;
+        if (cycles.present == ended || ended == SignalCycles::kNoCycle) continue;
+        if (cycles.of_last_green == ended) continue;
+        const double now_s = model_.time_s(cycles_.start_tick(group));
+        const bool is_green = lights_[at(group)] == Light::green;
+        if (is_green && !open_[at(record)].has_begun) continue;
+        HcmInterval& interval = open_[at(record)].interval;
+        if (is_green) {
+            interval.green_to_s = now_s;
+            interval.green_goes_on = true;
+        }
+        begin_interval(state, record, now_s, ended);
+        if (is_green) open_[at(record)].interval.green_from_s = now_s;
+    }
+}
+
+// Ends the open interval of a lane, which belongs to a cycle, and begins the next one.
+void HcmSampler::begin_interval(const State& state, int record, double now_s, std::int64_t cycle) {
     OpenInterval& open = open_[at(record)];
     const int residual = queued_before_line(state, record);
     HcmInterval& ended = open.interval;
     ended.to_s = now_s;
     ended.residual_veh = residual;
     ended.present_veh = present_before_line(state, record);
-    ended.cycle = cycles_.number(model_.graph.lanes[at(records_[at(record)].lane)].signal_group);
-    const bool has_green = ended.green_to_s > ended.green_from_s && ended.green_from_s >= 0.0;
-    if (!open.has_begun) records_[at(record)].first_cycle = ended.cycle;
-    if (open.has_begun && has_green) records_[at(record)].intervals.push_back(ended);
+    ended.cycle = cycle;
+    if (open.has_begun) {
+        records_[at(record)].intervals.push_back(ended);
+    } else {
+        records_[at(record)].first_cycle = cycle;
+    }
     const int present = ended.present_veh;
     open = {true, {}};
     open.interval.from_s = now_s;
@@ -187,7 +225,7 @@ void HcmSampler::begin_interval(const State& state, int record, double now_s) {
     open.interval.back_veh = residual;
 }
 
-// Returns the number of vehicles before the stop line that have stood in the queue.
+// Returns the number of vehicles before the stop line that have stopped in the queue.
 int HcmSampler::queued_before_line(const State& state, int record) const {
     const int lane = records_[at(record)].lane;
     const LaneBlock& block = state.blocks[at(lane)];

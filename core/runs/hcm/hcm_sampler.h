@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/containers/index.h"
 #include "measure/hcm.h"
 #include "runs/hcm/signal_cycles.h"
 #include "scenario/scenario.h"
@@ -43,11 +44,19 @@ private:
         bool has_begun = false;
         HcmInterval interval;
     };
+    // The cycles of the signal of a lane (SignalCycles).
+    struct LaneCycles {
+        std::int64_t present = SignalCycles::kNoCycle;         // at the last sample
+        std::int64_t of_last_green = SignalCycles::kNoCycle;  // in which the last green of the lane ended
+    };
 
     void note_lights(const State& state);
     void note_passages(const State& state);
     void note_teleports(const State& state);
-    void begin_interval(const State& state, int record, double now_s);
+    void end_green_interval(const State& state, int record, double now_s);
+    void note_cycles(const State& state);
+    void begin_interval(const State& state, int record, double now_s, std::int64_t cycle);
+    int group_of(int record) const { return model_.graph.lanes[at(records_[at(record)].lane)].signal_group; }
     void visit_lane(const State& state, int lane);
     void approach_line(Track& track, int record, double to_line_m, double speed_mps, double lost_s, double length_m);
     int queued_before_line(const State& state, int record) const;
@@ -60,6 +69,7 @@ private:
     double free_flow_share_;  // free-flow speed as a share of the speed limit
     std::vector<HcmRecord> records_;
     std::vector<OpenInterval> open_;                  // [record]
+    std::vector<LaneCycles> lane_cycles_;             // [record]
     std::vector<int> record_of_;                      // [lane] index in records_; -1: no stop line
     std::vector<std::vector<int>> records_of_group_;  // [signal group]
     std::vector<Light> lights_;                       // [signal group] at the last sample

@@ -29,7 +29,11 @@ bool begins_ring_cycle(const RingPlan& rings, int previous, int next) {
 // Returns true if a signal begins a new cycle with the green of the phase `next`. `previous`: the phase before it.
 bool begins_cycle(const SignalPlan& plan, int previous, int next) {
     if (plan.controller->runs_rings) return begins_ring_cycle(plan.phases.rings, previous, next);
-    return next <= previous;
+    const auto is_after_previous = [&](const PhaseProgramme& programme) { return programme.first_phase > previous; };
+    const std::vector<PhaseProgramme>& programmes = plan.phases.programmes;
+    const auto later = std::find_if(programmes.begin(), programmes.end(), is_after_previous);
+    const bool is_later_programme = later != programmes.end() && next >= later->first_phase;
+    return next <= previous || is_later_programme;
 }
 
 int greens_per_cycle(const GroupProgramme& programme) {
@@ -42,25 +46,29 @@ int greens_per_cycle(const GroupProgramme& programme) {
     return greens;
 }
 
-// Returns the number of the cycle of a programme at a tick.
+// Returns the number of the cycle of a programme at a tick. The programme must have begun.
 std::int64_t programme_cycle(const GroupProgramme& programme, std::int64_t tick) {
-    const std::int64_t since_tick = tick - programme.first_tick();
-    return since_tick < 0 ? 0 : 1 + since_tick / programme.cycle_ticks();
+    return (tick - programme.first_tick()) / programme.cycle_ticks();
 }
 
 }  // namespace
 
 SignalCycles::SignalCycles(const Model& model)
-    : model_(model), signals_(model.signals.size()), has_several_greens_(at(model.signals.groups())) {
+    : model_(model), signals_(model.signals.size()), greens_can_vary_(at(model.signals.groups())) {
     for (int group = 0; group < model.signals.groups(); ++group) {
         if (!model.signals.place_of(group).is_known) continue;
-        const bool is_fixed = model.signals.plan_of(group).controller->follows_programme;
-        has_several_greens_[at(group)] = !is_fixed || greens_per_cycle(model.signals.programme(group)) > 1;
+        const SignalPlan& plan = model.signals.plan_of(group);
+        const bool is_fixed = plan.controller->follows_programme && plan.phases.programmes.size() <= 1;
+        greens_can_vary_[at(group)] = !is_fixed || greens_per_cycle(model.signals.programme(group)) != 1;
     }
 }
 
 std::int64_t SignalCycles::number(int group) const {
-    return has_several_greens_[at(group)] ? signals_[model_.signals.place_of(group).signal].number : kNoCycle;
+    return greens_can_vary_[at(group)] ? signals_[model_.signals.place_of(group).signal].number : kNoCycle;
+}
+
+std::int64_t SignalCycles::start_tick(int group) const {
+    return signals_[model_.signals.place_of(group).signal].start_tick;
 }
 
 void SignalCycles::update(const State& state) {
@@ -70,13 +78,19 @@ void SignalCycles::update(const State& state) {
         const int phase = state.signals.phase[k];
         if (phase >= 0) {
             const std::int64_t start_tick = state.signals.phase_start_tick[k];
-            if (signal.phase < 0) signal.number = 0;
-            const bool has_begun = signal.phase >= 0 && start_tick != signal.phase_start_tick;
-            if (has_begun && begins_cycle(plan, signal.phase, phase)) ++signal.number;
+            const bool is_first = signal.phase < 0;
+            const bool has_begun = !is_first && start_tick != signal.phase_start_tick;
+            if (is_first || (has_begun && begins_cycle(plan, signal.phase, phase))) {
+                ++signal.number;
+                signal.start_tick = start_tick;
+            }
             signal.phase = phase;
             signal.phase_start_tick = start_tick;
         } else if (plan.controller->follows_programme && plan.phases.empty()) {
-            signal.number = programme_cycle(plan.programmes.front(), state.tick);
+            const GroupProgramme& programme = plan.programmes.front();
+            if (state.tick < programme.first_tick()) continue;
+            signal.number = programme_cycle(programme, state.tick);
+            signal.start_tick = programme.first_tick() + signal.number * programme.cycle_ticks();
         }
     }
 }

@@ -1,5 +1,8 @@
-// Counts the cycles of each signal in a run, for lanes that have several greens in a cycle. A controller that skips
-// phases has cycles of different lengths, and a lane then has fewer greens in some of them.
+// Counts the cycles of each signal in a run, for lanes that can have several greens in a cycle, or none. A controller
+// that skips phases has cycles of different lengths, and a lane then has fewer greens in some of them.
+//
+// A cycle begins when the controller comes back to an earlier phase of its sequence, begins the same phase again, or
+// begins with another programme. With rings, it begins when the rings come back to an earlier side of the barriers.
 #pragma once
 
 #include <cstddef>
@@ -22,19 +25,22 @@ public:
     void update(const State& state);
 
     // Returns the number of the cycle in which the signal of a group is. The numbers rise with time. Returns kNoCycle
-    // for groups with one green in a cycle, and for signals that have neither phases nor a programme.
+    // for groups with one green in each cycle, and for signals that have neither phases nor a programme.
     std::int64_t number(int group) const;
+    // Returns the tick at which this cycle began. The group must have a cycle.
+    std::int64_t start_tick(int group) const;
 
 private:
     struct Signal {
         std::int64_t number = kNoCycle;
+        std::int64_t start_tick = 0;  // of the cycle
         int phase = -1;
         std::int64_t phase_start_tick = -1;
     };
 
     const Model& model_;
-    std::vector<Signal> signals_;           // [signal]
-    std::vector<bool> has_several_greens_;  // [signal group] the group can have several greens in a cycle
+    std::vector<Signal> signals_;        // [signal]
+    std::vector<bool> greens_can_vary_;  // [signal group] the group can have several greens in a cycle, or none
 };
 
 }  // namespace stopline

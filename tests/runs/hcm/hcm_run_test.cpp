@@ -167,6 +167,66 @@ TEST(HcmRun, StreetLanesWithTwoGreensHaveTheCycleOfTheSignal) {
     EXPECT_GT(lanes_with_two_greens, 0);
 }
 
+// Few vehicles come from south and north, so the actuated controller skips their phase in about every second cycle.
+// Nevertheless all lanes have the cycles of the controller.
+TEST(HcmRun, LanesOfAnActuatedSignalHaveTheSameCycles) {
+    const IntersectionResult result = run_intersection(
+        hcm_scenario(
+            "seed: 3, network: {kind: intersection, intersection: {lanes: [{movements: left}, {movements: "
+            "straight+right}]}}, signal: {first_green: 1 s, controller: actuated, phases: ["
+            "{protected: [west_straight, east_straight, west_right, east_right], green: 15 s, max_green: 30 s}, "
+            "{protected: [west_left, east_left, west_right, east_right], green: 6 s, max_green: 12 s}, "
+            "{protected: [south_straight, north_straight, south_right, north_right], permissive: [south_left, "
+            "north_left], green: 10 s, max_green: 20 s}]}, measure: {warmup_cycles: 2, cycles: 40, hcm: on}, "
+            "demand: {kind: saturated, cross_inflow: 20 veh/h}"),
+        0);
+    int most = 0;
+    double cycle_s = 0.0;
+    for (const HcmRow& row : result.hcm) {
+        if (row.scope == HcmRow::Scope::lane && row.cycles > most) most = row.cycles, cycle_s = row.cycle_s;
+    }
+    EXPECT_GT(most, 30);
+    int lanes_with_skipped_greens = 0;
+    for (const HcmRow& row : result.hcm) {
+        if (row.scope != HcmRow::Scope::lane) continue;
+        EXPECT_GE(row.cycles, most - 2) << row.name;
+        EXPECT_NEAR(row.cycle_s, cycle_s, 0.05 * cycle_s) << row.name;
+        EXPECT_FALSE(row.has_several_greens) << row.name;
+        lanes_with_skipped_greens += row.greens_per_cycle < 0.7 ? 1 : 0;
+    }
+    EXPECT_EQ(lanes_with_skipped_greens, 4);
+}
+
+// The programme of phases changes at 8:00 h, during the run. The first cycle of the other programme is a cycle of its
+// own, so each lane has one green in each cycle.
+TEST(HcmRun, AnotherProgrammeBeginsACycle) {
+    const auto phases = [](const std::string& green) {
+        const std::string times = ", green: " + green + ", max_green: " + green + "}";
+        return "phases: [{protected: [west_straight, east_straight, west_right, east_right], permissive: [west_left, "
+               "east_left]" +
+               times +
+               ", {protected: [south_straight, north_straight, south_right, north_right], permissive: [south_left, "
+               "north_left]" +
+               times + "]";
+    };
+    const IntersectionResult result = run_intersection(
+        hcm_scenario("network: {kind: intersection}, signal: {first_green: 1 s, controller: actuated, clock: 7.95 h, "
+                     "programmes: [{from: 0 h, " +
+                     phases("15 s") + "}, {from: 8 h, " + phases("20 s") +
+                     "}]}, measure: {warmup_cycles: 1, cycles: 10, hcm: on}, demand: {kind: saturated, start: queued}"),
+        0);
+    int lanes = 0;
+    for (const HcmRow& row : result.hcm) {
+        if (row.scope != HcmRow::Scope::lane) continue;
+        ++lanes;
+        EXPECT_DOUBLE_EQ(row.greens_per_cycle, 1.0) << row.name;
+        EXPECT_FALSE(row.has_several_greens) << row.name;
+        EXPECT_GE(row.cycles, 9) << row.name;
+        EXPECT_LT(row.cycle_s, 56.1) << row.name;  // 46 s, then 56 s
+    }
+    EXPECT_EQ(lanes, 8);
+}
+
 TEST(HcmRun, CoversTheLanesOfNetworksAndActuatedSignals) {
     const Scenario scenario = hcm_scenario(
         "network: {kind: grid, grid: {columns: 2, rows: 1}}, signal: {first_green: 1 s, controller: actuated, phases: "
