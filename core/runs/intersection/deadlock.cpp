@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -29,7 +30,9 @@ int vehicle_since(const State& state, int connection, std::int64_t tick) {
 }  // namespace
 
 DeadlockSearch::DeadlockSearch(const Model& model, double limit_s)
-    : model_(model), limit_ticks_(static_cast<std::int64_t>(std::ceil(limit_s / model.step_s - 1e-9))) {}
+    : model_(model),
+      limit_ticks_(static_cast<std::int64_t>(std::ceil(limit_s / model.step_s - 1e-9))),
+      watched_ticks_(std::min(limit_ticks_, static_cast<std::int64_t>(std::ceil(kMinDeadlock_s / model.step_s)))) {}
 
 void DeadlockSearch::observe(const State& state) {
     if (deadlock_) {
@@ -38,21 +41,38 @@ void DeadlockSearch::observe(const State& state) {
         if (deadlock_->members.empty()) deadlock_->members = members_from(state, deadlock_->vehicle);
         return;
     }
-    if (state.records.longest_in_junction_ticks < limit_ticks_) return;
-    Deadlock found;
-    found.to_s = model_.time_s(state.tick);
-    std::int64_t earliest_tick = state.tick;
+    // The waiting vehicles change with each delay watch only.
+    if (state.tick % model_.rules.watch_ticks != 0) return;
+    if (state.records.longest_in_junction_ticks >= watched_ticks_) watch_occupants(state);
+}
+
+// Notes the lawful waits of the vehicles inside, and records the deadlock of the vehicle whose time is the longest.
+void DeadlockSearch::watch_occupants(const State& state) {
+    std::map<int, std::int64_t> last_lawful_tick;
+    std::int64_t earliest_tick = state.tick - limit_ticks_ + 1;
     for (std::size_t lane = 0; lane < state.plan.lane_order().size(); ++lane) {
         for (const JunctionOccupant& occupant : occupants_of(state, static_cast<int>(lane))) {
-            if (occupant.since_tick >= earliest_tick) continue;
-            earliest_tick = occupant.since_tick;
-            found.lane = static_cast<int>(lane);
+            if (state.tick - occupant.since_tick < watched_ticks_) continue;
+            const int vehicle = vehicle_since(state, static_cast<int>(lane), occupant.since_tick);
+            std::vector<DeadlockMember> members = members_from(state, vehicle);
+            std::int64_t since_tick = occupant.since_tick;
+            if (is_lawful(members)) {
+                since_tick = last_lawful_tick[vehicle] = state.tick;
+            } else if (const auto known = last_lawful_tick_.find(vehicle); known != last_lawful_tick_.end()) {
+                since_tick = last_lawful_tick[vehicle] = known->second;
+            }
+            if (since_tick >= earliest_tick) continue;
+            earliest_tick = since_tick;
+            deadlock_ = Deadlock{vehicle, static_cast<int>(lane), model_.time_s(since_tick), model_.time_s(state.tick),
+                                 std::move(members)};
         }
     }
-    if (found.lane >= 0) found.vehicle = vehicle_since(state, found.lane, earliest_tick);
-    found.from_s = model_.time_s(earliest_tick);
-    found.members = members_from(state, found.vehicle);
-    deadlock_ = found;
+    last_lawful_tick_ = std::move(last_lawful_tick);
+}
+
+// Returns true if the last vehicle of a chain yields to traffic that moves.
+bool DeadlockSearch::is_lawful(const std::vector<DeadlockMember>& members) {
+    return !members.empty() && members.back().cause == DelayCause::yielding && members.back().waits_for < 0;
 }
 
 std::vector<DeadlockMember> DeadlockSearch::members_from(const State& state, int vehicle) {

@@ -1,9 +1,14 @@
-// Deadlocks of a single intersection: a vehicle stays inside the intersection for two signal cycles longer than the
-// slowest unobstructed crossing takes, and at least for kMinDeadlock_s longer. If the controller reacts to traffic, the
-// longest possible cycle counts.
+// Deadlocks of a single intersection: a vehicle stays inside the intersection for too long without a lawful wait. The
+// limit is the time of the slowest unobstructed crossing, plus two signal cycles, and plus kMinDeadlock_s at least. If
+// the controller reacts to traffic, the longest possible cycle counts. The time counts from the last lawful wait.
+//
+// A lawful wait is a chain of waiting vehicles whose last vehicle yields to moving traffic, such as a left-turning
+// vehicle in a green that does not end. It can last without limit: the vehicle starves (Starvation in
+// sim/state/delay_log.h). A cycle of vehicles that wait for each other is no lawful wait.
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,8 +34,8 @@ struct DeadlockMember {
 struct Deadlock {
     int vehicle = -1;     // id of the vehicle that stays too long
     int lane = -1;        // connection of this vehicle
-    double from_s = 0.0;  // time at which it entered the intersection
-    double to_s = 0.0;    // time at which its stay became too long
+    double from_s = 0.0;  // time at which it entered the intersection, or of its last lawful wait
+    double to_s = 0.0;    // time at which this was found to be too long ago
     // A chain of waiting vehicles. The first one is `vehicle`, and each one waits for the next one. The last one waits
     // for no stopped vehicle, or for one that is in the chain already. Empty: `vehicle` has not stopped.
     std::vector<DeadlockMember> members = {};
@@ -47,10 +52,14 @@ public:
     const std::optional<Deadlock>& deadlock() const { return deadlock_; }
 
 private:
+    void watch_occupants(const State& state);
     static std::vector<DeadlockMember> members_from(const State& state, int vehicle);
+    static bool is_lawful(const std::vector<DeadlockMember>& members);
 
     const Model& model_;
     std::int64_t limit_ticks_;
+    std::int64_t watched_ticks_;  // lawful waits are looked for in longer stays only
+    std::map<int, std::int64_t> last_lawful_tick_;  // [vehicle] of the vehicles inside that have waited lawfully
     std::optional<Deadlock> deadlock_;
 };
 

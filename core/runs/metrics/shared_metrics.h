@@ -110,7 +110,9 @@ MetricList<Run> count_metrics(std::initializer_list<std::string_view> in_summary
         {.column = "deadlocks",
          .extent = "run",
          .meaning = "1 if a vehicle stays in the intersection longer than the slowest unobstructed crossing plus "
-                    "two cycles of the greatest possible length (at least 30 s), else 0; a violation",
+                    "two cycles of the greatest possible length (at least 30 s), else 0; a violation. While the "
+                    "vehicle, or the last one of the vehicles that it waits for, yields to moving traffic, the time "
+                    "does not count",
          .value = [](const Run& run) { return run.counts().violations.deadlocks; }},
         {.column = "updates",
          .extent = "run",

@@ -94,5 +94,32 @@ measure: {warmup_cycles: 0, cycles: 10}
     EXPECT_EQ(result.violations.deadlocks, 0);
 }
 
+// Almost no vehicle calls the second phase, so the green of the first one goes on for far more than two of the longest
+// cycles. The left-turning vehicle inside the intersection gets no gap in the saturated oncoming traffic: it starves.
+TEST(Deadlock, YieldingInAGreenWithoutEndIsStarvation) {
+    const IntersectionReport report = run_intersections(parse_scenario(R"(
+fidelity: meso
+network: {kind: intersection, intersection: {lanes: [{movements: left}, {movements: straight+right}]}}
+signal:
+  controller: actuated
+  first_green: 1 s
+  phases:
+  - {protected: [west_straight, east_straight, west_right, east_right], permissive: [west_left, east_left],
+     green: 10 s, max_green: 20 s}
+  - {protected: [south_straight, north_straight, south_right, north_right], permissive: [south_left, north_left],
+     green: 10 s, max_green: 20 s}
+demand: {kind: saturated, cross_inflow: 1 veh/h}
+populations: [CTG-Ref]
+measure: {warmup_cycles: 0, cycles: 15}
+)",
+                                                                       "test.yaml"),
+                                                        {});
+    const IntersectionResult& result = report.populations[0];
+    EXPECT_GT(result.longest_in_junction_s, 300.0);
+    EXPECT_EQ(result.violations.deadlocks, 0);
+    EXPECT_TRUE(report.no_violations());
+    EXPECT_GT(result.starvations.size(), 0U);
+}
+
 }  // namespace
 }  // namespace stopline
