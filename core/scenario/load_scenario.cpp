@@ -122,10 +122,7 @@ Scenario scenario_from(SourceNode root, const std::vector<std::string>& override
     Scenario scenario;
     read_fields(scenario_table(), root, "", &scenario, report);
     report.throw_if_any();
-    const auto is_named_none = [](const PopulationSettings& population) { return population.name == kNoBaseline; };
-    const std::vector<PopulationSettings>& populations = scenario.populations;
-    if (scenario.measure.baseline == kNoBaseline && std::none_of(populations.begin(), populations.end(), is_named_none))
-        scenario.measure.baseline.clear();
+    if (scenario.measure.baseline == kNoBaseline) scenario.measure.baseline.clear();
     const NetworkKind& kind = network_kind(scenario.network);
     if (kind.ends_after_cycles && scenario.duration_s != 0.0) {
         scenario.measure.cycles = cycles_within_duration(scenario);

@@ -48,6 +48,15 @@ TEST(Checks, ABaselineCanBeTakenBack) {
     EXPECT_EQ(parse_scenario(file, "x", {"measure.baseline=none"}).hash, without.hash);
 }
 
+// `baseline: none` means no comparison, so it cannot name a population.
+TEST(Checks, NoPopulationCanBeNamedNone) {
+    const std::string file =
+        "populations: [CDG, {name: none, components: [{policy: CTG-Ref, share: 100 %}]}]\nmeasure: {baseline: CDG}\n";
+    EXPECT_TRUE(contains(error_of(file, {}),
+                         "field 'populations[none].name': the name 'none' is reserved: as measure.baseline it means no "
+                         "comparison; give another name"));
+}
+
 TEST(Checks, OwnPoliciesReplacePoliciesOfThePaper) {
     const Scenario s =
         parse_scenario("policies: [{name: CDG, law: constant_distance, standstill_gap: 2 m}]\n", "x.yaml");

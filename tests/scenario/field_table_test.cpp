@@ -152,12 +152,18 @@ TEST_P(EveryField, NumbersRefuseInvalidValues) {
         expect_refused(leaf, "1e999 " + std::string(shown.text), "is too large");
         expect_refused(leaf, "1 " + other_unit(shown),
                        shown.dimension == Dimension::number ? "has a unit" : "is needed");
-        expect_refused(leaf, "1 furlong", shown.dimension == Dimension::number ? "unknown unit" : "known here: ");
+        expect_refused(leaf, "1 furlong", shown.dimension == Dimension::number ? "has a unit" : "known here: ");
+        const bool is_share = shown.dimension == Dimension::share;
+        if (!is_share) {
+            expect_refused(leaf, "1 fraction", shown.dimension == Dimension::number ? "has a unit" : "is needed");
+        }
         EXPECT_TRUE(contains(error_of(replaced(leaf.value, "")),
                              to_string(leaf.key) + ": field '" + leaf.path + "': needs a single value, not nothing"));
         expect_refused(leaf, "[1, 2]", "needs a single value, not a list");
         expect_refused(leaf, "{a: 1}", "needs a single value, not a map");
-        if (shown.dimension != Dimension::number) expect_refused(leaf, "1", "has no unit: write e.g. '1 ");
+        if (!shown.text.empty()) {
+            expect_refused(leaf, "1", is_share ? "has no unit: write '1 " : "has no unit: write e.g. '1 ");
+        }
         const double step = 1e-6 * std::max(1.0, std::abs(f->range.min));
         expect_refused(leaf, quantity(f->range.min - step, shown), "is out of range (allowed: ");
         expect_refused(leaf, quantity(f->range.max * (1 + 1e-6) + step, shown), "is out of range (allowed: ");

@@ -65,11 +65,13 @@ TEST(Quantity, AcceptsCommonSpellings) {
 
 TEST(Quantity, RefusesWrongOrMissingUnits) {
     EXPECT_EQ(problem("15", "s"), "has no unit: write e.g. '15 s'");
-    EXPECT_EQ(problem("15 s", ""), "has a unit, but is a plain number");
+    for (const char* text : {"15 s", "15 %", "0.15 fraction", "15 furlong"})
+        EXPECT_EQ(problem(text, ""), "has a unit, but is a plain number") << text;
     EXPECT_EQ(problem("15 m", "s"), "is a length (unit 'm'), but a time is needed");
     EXPECT_EQ(problem("15 kmh", "km/h"), "has the unknown unit 'kmh' (known here: m/s, km/h)");
     EXPECT_EQ(problem("15 S", "s"), "has the unknown unit 'S' (known here: s, ms, min, h)");
-    EXPECT_EQ(problem("50 %", "s"), "is a plain number (unit '%'), but a time is needed");
+    EXPECT_EQ(problem("50 %", "s"), "is a share (unit '%'), but a time is needed");
+    EXPECT_EQ(problem("15 m", "%"), "is a length (unit 'm'), but a share is needed");
     EXPECT_EQ(problem("1,5 s", "s"), "has a comma: write a decimal point, and no thousands separators");
     EXPECT_EQ(problem("15 s s", "s"), "has the unknown unit 's s' (known here: s, ms, min, h)");
     EXPECT_EQ(problem("1 000 m", "m"), "has the unknown unit '000 m' (known here: m, cm, mm, km)");
@@ -82,6 +84,17 @@ TEST(Quantity, RefusesPercentagesWithoutUnit) {
     EXPECT_EQ(problem("0", "%"), "has no unit: write e.g. '0 %'");
     EXPECT_EQ(problem("-2", "%"), "has no unit: write e.g. '-2 %'");
     EXPECT_EQ(problem("5 per cent", "%"), "has the unknown unit 'per cent' (known here: %, fraction)");
+}
+
+TEST(Quantity, PlainSharesHaveAnyUnitOfAShareOrNone) {
+    const Unit& share = unit(kPlainShare);
+    for (const char* text : {"0.4", "40 %", "0.4 fraction"}) {
+        EXPECT_EQ(parse_quantity(text, share).problem, "") << text;
+        EXPECT_EQ(parse_quantity(text, share).si, 0.4) << text;
+        EXPECT_TRUE(std::regex_match(text, std::regex(quantity_pattern(share)))) << text;
+    }
+    EXPECT_EQ(parse_quantity("0.4 s", share).problem, "is a time (unit 's'), but a share is needed");
+    EXPECT_EQ(exact_text(0.4, share), "0.4");
 }
 
 // Not every number is a hundredth of another one. Such a percentage is written as a fraction.
@@ -160,6 +173,7 @@ TEST(Quantity, EverySpellingIsUniqueAndMatchesThePattern) {
             EXPECT_EQ(parse_quantity(text, candidate).problem, "") << text;
         }
         EXPECT_FALSE(std::regex_match("5 parsec", pattern));
+        EXPECT_EQ(std::regex_match("5 fraction", pattern), candidate.dimension == Dimension::share);
         EXPECT_EQ(std::regex_match("5", pattern), candidate.text.empty());
     }
     EXPECT_THROW(unit("parsec"), std::logic_error);

@@ -38,7 +38,7 @@ const Table& krauss_table() {
                                           "b: deceleration that the safe speed assumes"),
             number<&S::reaction_s>("reaction", "s", {0, 5}, "tau: reaction time that the safe speed assumes"),
             number<&S::standstill_gap_m>("standstill_gap", "m", {0.1, 20}, "s_0 (minGap): net gap at standstill"),
-            number<&S::dawdling>("dawdling", "", {0, 1}, "sigma: share of the acceleration that is lost at random"),
+            number<&S::dawdling>("dawdling", kPlainShare, {0, 1}, "sigma: share of the acceleration that is lost at random"),
         });
     return table;
 }
@@ -107,7 +107,7 @@ const Table& meso_table() {
             section<&S::idm>("idm", idm_table, "the car-following model idm"),
             number<&S::band_m>("band", "m", {0, 5}, "s_t of equation (1): width of the tolerance band"),
             number<&S::below_band_speed_share>(
-                "below_band_speed_share", "", {0, 1},
+                "below_band_speed_share", kPlainShare, {0, 1},
                 "d of equation (1): speed of a vehicle whose gap is below the band, as a share of the leader's speed")
                 .renamed_from("below_band"),
             number<&S::calibrated_time_gap_s>(

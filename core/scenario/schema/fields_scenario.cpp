@@ -61,6 +61,12 @@ void check_names(const Scenario& scenario, Checker& check) {
     const std::vector<std::string> populations = names_of(scenario.populations);
     check_unique(policies, "policies", check);
     check_unique(populations, "populations", check);
+    if (contains(populations, kNoBaseline)) {
+        check.error(fmt::format("populations[{}].name", kNoBaseline),
+                    fmt::format("the name '{}' is reserved: as measure.baseline it means no comparison; give another "
+                                "name",
+                                kNoBaseline));
+    }
     for (const PopulationSettings& population : scenario.populations) {
         for (std::size_t k = 0; k < population.components.size(); ++k) {
             const std::string field =
@@ -219,7 +225,7 @@ const Table& measure_table() {
                 false),
             number<&S::starvation_s>(
                 "starvation", "s", {0, 86'400},
-                "intersections: a movement starves, and the run fails, if the first vehicle of a queue stands for this "
+                "intersections: a movement starves, and the run fails, if the first vehicle of a queue waits for this "
                 "time, and for two cycles of its signal, although nothing blocks its way; the default is the time after "
                 "which SUMO teleports; 0 s: never"),
             choice<&S::departure_delay>(

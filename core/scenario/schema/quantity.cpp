@@ -19,6 +19,7 @@ struct DimensionName {
 
 constexpr std::array kDimensionNames{
     DimensionName{Dimension::number, "plain number"},
+    DimensionName{Dimension::share, "share"},
     DimensionName{Dimension::time, "time"},
     DimensionName{Dimension::length, "length"},
     DimensionName{Dimension::area, "area"},
@@ -83,10 +84,10 @@ std::string missing_unit(double value, std::string_view number, const Unit& expe
 }
 
 std::string unit_problem(std::string_view written, const Unit& expected) {
+    if (expected.dimension == Dimension::number) return "has a unit, but is a plain number";
     std::vector<std::string> spellings;
     for (const Unit& candidate : units()) {
         if (candidate.text == written) {
-            if (expected.dimension == Dimension::number) return "has a unit, but is a plain number";
             return "is a " + std::string(name_of(candidate.dimension)) + " (unit '" + std::string(written) +
                    "'), but a " + std::string(name_of(expected.dimension)) + " is needed";
         }
@@ -109,8 +110,8 @@ const std::vector<Unit>& units() {
     // `fraction`. exact_text() relies on this order.
     static const std::vector<Unit> all{
         {"", Dimension::number},
-        {"%", Dimension::number, 1.0, 100.0},
-        {"fraction", Dimension::number},
+        {"%", Dimension::share, 1.0, 100.0},
+        {"fraction", Dimension::share},
         {"s", Dimension::time},
         {"ms", Dimension::time, 1.0, 1000.0},
         {"min", Dimension::time, 60.0},
@@ -156,6 +157,8 @@ const std::vector<Unit>& units() {
 }
 
 const Unit& unit(std::string_view text) {
+    static const Unit plain_share{"", Dimension::share};
+    if (text == kPlainShare) return plain_share;
     for (const Unit& candidate : units()) {
         if (candidate.text == text) return candidate;
     }
@@ -178,9 +181,9 @@ ParsedQuantity parse_quantity(std::string_view text, const Unit& expected) {
     result.problem = take_number(rest, value);
     if (!result.problem.empty()) return result;
     const std::string_view written = trimmed(rest);
-    if (written.empty() && !expected.text.empty()) {
-        const std::string_view number = trimmed(text);
-        result.problem = missing_unit(value, number, expected);
+    if (written.empty()) {
+        result.si = value;
+        if (!expected.text.empty()) result.problem = missing_unit(value, trimmed(text), expected);
         return result;
     }
     for (const Unit& candidate : units()) {
@@ -250,7 +253,7 @@ std::string quantity_pattern(const Unit& unit) {
             spellings += c;
         }
     }
-    const std::string unit_part = "(" + spellings + ")" + (unit.text.empty() ? "?" : "");
+    const std::string unit_part = spellings.empty() ? "" : "(" + spellings + ")" + (unit.text.empty() ? "?" : "");
     return "^ *[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)? *" + unit_part + " *$";
 }
 
