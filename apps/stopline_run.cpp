@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -64,7 +65,7 @@ struct RunCliOptions {
     bool trajectories = false;
     std::string trajectories_file = kTrajectoriesName;  // relative to the results folder
     bool no_figures = false;
-    bool describe = false;
+    std::optional<std::string> describe;  // text in the paths of the listed fields; empty: all fields
     bool describe_markdown = false;
     bool describe_columns = false;
     bool schema = false;
@@ -91,7 +92,9 @@ void declare(Options& app, RunCliOptions& options) {
     add_run_files_options(app, options.files);
     add_old_column_names_option(app, options.common);
     app.add_flag("--no-figures", options.no_figures, "Do not draw figures");
-    app.add_flag("--describe", options.describe, "List all fields of scenario files and exit");
+    app.add_optional("--describe", options.describe,
+                     "List the fields of scenario files and exit: all of them, or those with FIELD in their path")
+        .type_name("[FIELD]");
     app.add_flag("--describe-markdown", options.describe_markdown,
                  "Print all fields of scenario and sweep files as Markdown (scenarios/FIELDS.md) and exit");
     app.add_flag("--describe-columns", options.describe_columns,
@@ -109,7 +112,8 @@ void declare(Options& app, RunCliOptions& options) {
             "  stopline-run scenarios/grid.yaml --set 'duration=600 s' --record out/grid.rec\n"
             "  stopline-run scenarios/intersection.yaml --fcd out/fcd.xml --tripinfo out/trips.xml --e1 out/loops.xml\n"
             "  stopline-run scenarios/first_steps.yaml --set vehicle=electric_100kw --output out/electric\n"
-            "  stopline-run --list scenarios/single_light.yaml\n\n"
+            "  stopline-run --list scenarios/single_light.yaml\n"
+            "  stopline-run --describe signal.green\n\n"
             "Next: open the figures in the output folder. To watch a recorded run in a browser:\n"
             "  stopline-replay out/grid.CDG.rec\n\n") +
         kExitCodesText);
@@ -379,7 +383,7 @@ void refuse_unused_window(const RunCliOptions& options, bool streams_trajectorie
 }
 
 ExitCode run(const RunCliOptions& options) {
-    if (options.describe) return fmt::print("{}", describe_fields()), ExitCode::done;
+    if (options.describe) return fmt::print("{}", describe_fields(*options.describe)), ExitCode::done;
     if (options.describe_markdown) return fmt::print("{}", fields_markdown()), ExitCode::done;
     if (options.describe_columns) return fmt::print("{}", columns_markdown()), ExitCode::done;
     if (options.schema) return fmt::print("{}", json_schema()), ExitCode::done;

@@ -214,6 +214,11 @@ Option Options::add(const std::string& names, std::vector<std::string>& values, 
     return add_text(app_->add_option(names, values, help));
 }
 
+Option Options::add_optional(const std::string& names, std::optional<std::string>& value, const std::string& help) {
+    const auto store = [&value](const std::string& text) { value = text; };
+    return {app_->add_option_function<std::string>(names, store, help)->expected(0, 1), *this};
+}
+
 Option Options::add_flag(const std::string& names, bool& value, const std::string& help) {
     return {app_->add_flag(names, value, help), *this};
 }

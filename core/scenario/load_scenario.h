@@ -61,8 +61,10 @@ std::string canonical_text(const Scenario& scenario);
 // Returns the 64-bit FNV-1a hash of canonical_text(), combined with the hash of imported SUMO files.
 std::uint64_t scenario_hash(const Scenario& scenario);
 
-// Returns a list of all fields of a scenario file for a terminal: name, unit, default, range and meaning.
-std::string describe_fields();
+// Returns a list of the fields of a scenario file for a terminal: name, unit, default, range and meaning. Lists the
+// fields whose path contains `text`, such as green, signal.green or phases[].green; all of them for an empty text. An
+// index or a name in brackets stands for all entries of a list. Throws InputError if there is no such field.
+std::string describe_fields(const std::string& text = {});
 
 // Returns the text of scenarios/FIELDS.md, which lists all fields of scenario and sweep files.
 std::string fields_markdown();

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/input_error.h"
 #include "base/io/escape.h"
 #include "base/nearest_name.h"
 #include "scenario/load_scenario.h"
@@ -84,6 +85,48 @@ std::vector<TableBlock> sweep_blocks() {
     return blocks;
 }
 
+// --- Fields whose path contains a text ---
+
+// Returns the path without the texts in its brackets: policies[CTG-Ref].time_gap becomes policies[].time_gap.
+std::string without_entries(const std::string& path) {
+    std::string text;
+    bool is_inside = false;
+    for (const char c : path) {
+        if (c == ']') is_inside = false;
+        if (!is_inside) text += c;
+        if (c == '[') is_inside = true;
+    }
+    return text;
+}
+
+// Throws InputError about a text that no path contains. The message has the nearest path, section or name of a field.
+[[noreturn]] void refuse_path(const std::string& text, const std::vector<TableBlock>& blocks) {
+    std::vector<std::string> known;
+    for (const TableBlock& block : blocks) {
+        if (!block.path.empty()) known.push_back(block.path);
+        for (const FieldLine& line : block.lines) {
+            known.push_back(join_path(block.path, line.field));
+            known.push_back(line.field);
+        }
+    }
+    const std::string nearest = nearest_name(without_entries(text), known);
+    throw InputError("no field has '" + shortened(text) + "' in its path" +
+                     (nearest.empty() ? "" : "; did you mean '" + nearest + "'?") +
+                     " (stopline-run --describe lists all fields)");
+}
+
+// Removes the fields whose path does not contain the text.
+void keep_paths_with(const std::string& text, std::vector<TableBlock>& blocks) {
+    const std::vector<TableBlock> all = blocks;
+    for (TableBlock& block : blocks) {
+        std::erase_if(block.lines, [&](const FieldLine& line) {
+            return join_path(block.path, line.field).find(without_entries(text)) == std::string::npos;
+        });
+    }
+    std::erase_if(blocks, [](const TableBlock& block) { return block.lines.empty(); });
+    if (blocks.empty()) refuse_path(text, all);
+}
+
 // --- Text for a terminal ---
 
 constexpr std::size_t kColumnWidthMax = 20;  // default values with more characters are listed below the tables
@@ -156,14 +199,15 @@ std::string block_markdown(const TableBlock& block) {
 
 }  // namespace
 
-std::string describe_fields() {
-    const std::vector<TableBlock> blocks = scenario_blocks();
-    std::string text =
+std::string describe_fields(const std::string& text) {
+    std::vector<TableBlock> blocks = scenario_blocks();
+    if (!text.empty()) keep_paths_with(text, blocks);
+    std::string list =
         "Fields of a scenario file (YAML). Every quantity has a unit: 50 km/h, 0.87 s, 2.95 m, 30 %.\n"
         "The command line sets a field by its path: --set 'signal.green=20 s', "
         "--set 'policies[CTG-Ref].time_gap=0.6 s'.\n\n";
-    for (const TableBlock& block : blocks) text += block_text(block);
-    return text + long_defaults(blocks);
+    for (const TableBlock& block : blocks) list += block_text(block);
+    return list + long_defaults(blocks);
 }
 
 std::string describe_sweep_fields() {

@@ -49,6 +49,18 @@ for program in "$run" "$scorecard" "$STOPLINE_BIN/stopline-calibrate" "$strings"
 done
 
 prints "signal.green" "km/h" -- "$run" --describe
+lists_only() {  # lists_only UNWANTED PART... -- COMMAND...
+    unwanted=$1
+    shift
+    prints "$@"
+    if grep -qF -- "$unwanted" "$work/stdout"; then fail "$*: prints '$unwanted'"; fi
+}
+lists_only "all_red" "signal: " "min_green" -- "$run" --describe green
+lists_only "all_red" "signal: " "green" -- "$run" --describe=signal.green
+lists_only "standstill_gap" "policies[]: " "time_gap" -- "$run" --describe 'policies[CTG-Ref].time_gap'
+lists_only "policies[]: " "all_red" -- "$run" "$scenario" --describe signal
+refuses "no field has 'signal.gren' in its path; did you mean 'signal.green'?" -- "$run" --describe signal.gren
+refuses "no field has 'xyzxyz' in its path (stopline-run --describe lists all fields)" -- "$run" --describe xyzxyz
 prints "CDG-6m" "constant_time" "petrol_eu4_72kw" "startup_kit" "three_lanes" -- "$run" --list
 for kinds in "grids, streets and imported networks" "single intersections" "single lights"; do
     prints "Metrics of $kinds" "longest_stop_s [s]: longest single stop of any vehicle" -- "$run" --list
