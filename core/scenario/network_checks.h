@@ -17,7 +17,7 @@ void check_grid_links(const Scenario& scenario, Checker& check);
 void check_pockets(const Scenario& scenario, Checker& check);
 // Checks that a vehicle that enters the network can stop before the stop line of its entry lane.
 void check_entries(const Scenario& scenario, Checker& check);
-// Checks that a vehicle that waits at its stop line stands on the detector that calls its phase. Otherwise the
+// Checks that a vehicle that waits at its stop line covers the detector that calls its phase. Otherwise the
 // waiting vehicle calls no green until another vehicle reaches the detector.
 void check_stop_detector(const Scenario& scenario, Checker& check);
 // Checks that each name in demand.approaches belongs to an approach of the network.

@@ -1,5 +1,6 @@
 // The experiment of stopline-strings: each population of a scenario drives as a platoon behind a leader that swings,
-// brakes hard, or starts from rest. Measured gains stand beside those of the linear analysis (string_stability).
+// brakes hard, or starts from rest. The report compares measured gains with those of the linear analysis
+// (string_stability).
 #pragma once
 
 #include <functional>
