@@ -10,6 +10,7 @@
 #include "base/io/output.h"
 #include "common/command_line.h"
 #include "common/examples.h"
+#include "record/green_writer.h"
 #include "record/recording/recorder.h"
 #include "record/sumo_files.h"
 #include "record/trajectory_writer.h"
@@ -126,6 +127,7 @@ void add_run_files_options(Options& app, RunFilesOptions& options) {
     file("--tripinfo", options.tripinfo, "Write finished trips as SUMO tripinfo (XML)");
     file("--e1", options.loops, "Write the counts of the detectors as SUMO induction loops (XML)");
     time("--e1-interval", options.loop_interval, {"--e1"}, "With --e1: counting interval (default: 60 s)");
+    file("--greens", options.greens, "Write start and end of each green of all signals (CSV)");
 }
 
 RunFiles::RunFiles(const RunFilesOptions& options, const Scenario& scenario, const std::string& command)
@@ -149,6 +151,9 @@ RunFiles::RunFiles(const RunFilesOptions& options, const Scenario& scenario, con
         return make_loop_writer(file, loop_s, model);
     });
     needs_detectors_ = !options.loops.empty();
+    add("--greens", options.greens, [this](const std::filesystem::path& file, std::size_t k, const Model& model) {
+        return make_green_writer(file, scenario_.populations[k].name, model);
+    });
     RecordingWindow trajectories = window_;
     trajectories.interval_s = options.trajectory_interval_s;
     const std::string header =

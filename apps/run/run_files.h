@@ -1,5 +1,5 @@
 // Files that stopline-run writes during the simulation: recordings for stopline-replay, output files in formats of
-// SUMO, and trajectories of networks. Each population gets a file of its own.
+// SUMO, the greens of signals, and trajectories of networks. Each population gets a file of its own.
 #pragma once
 
 #include <cstddef>
@@ -25,6 +25,7 @@ struct RunFilesOptions {
     std::string fcd;
     std::string tripinfo;
     std::string loops;
+    std::string greens;
     std::string trajectories;  // only for networks of several intersections
     // Times of the frames in the files of --record and --fcd.
     std::string interval = "1 s";

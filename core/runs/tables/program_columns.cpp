@@ -1,5 +1,5 @@
-// Descriptions of the columns in the tables of stopline-calibrate, stopline-startup, stopline-compare,
-// stopline-scorecard and stopline-signals.
+// Descriptions of the columns in the tables of stopline-run --greens, stopline-calibrate, stopline-startup,
+// stopline-compare, stopline-scorecard and stopline-signals.
 #include "runs/tables/column_docs.h"
 
 #include <utility>
@@ -73,6 +73,20 @@ std::vector<TableDoc> calibration_tables() {
 
 std::vector<TableDoc> other_program_tables() {
     return {
+        {"run/greens.csv",
+         "Written with `stopline-run --greens FILE`, for all kinds of networks. One row for each green of each signal "
+         "group, in the order of their ends.",
+         with_population(
+             {{"intersection", "", "", "number of the intersection, as in `hcm.csv`"},
+              {"group", "", "", "number of the signal group at this intersection"},
+              {"lanes", "", "",
+               "approach lanes of the group; if it controls only movements of lanes: their connections"},
+              {"start_s", "s", "run", "start of green; below 0: the green began before the run"},
+              {"end_s", "s", "run",
+               "end of green, at which yellow begins; empty: the green had not ended by the end of the run"},
+              {"green_s", "s", "run", "duration of green; empty: as above"},
+              {"red_before_s", "s", "run",
+               "time since the end of the green before it; empty: the first green of the group"}})},
         {"startup/startup.csv",
          "One row for each time of the measured starts.",
          {{"time_s", "s", "", "time since the vehicle started to move"},

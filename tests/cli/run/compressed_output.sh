@@ -17,7 +17,8 @@ END
 run_with() {
     mkdir "$work/$1"
     "$STOPLINE_BIN/stopline-run" "$work/s.yaml" --no-figures --output "$work/$1" --fcd "$work/$1/fcd.xml$2" \
-        --tripinfo "$work/$1/trips.xml$2" --e1 "$work/$1/loops.xml$2" --trajectories \
+        --tripinfo "$work/$1/trips.xml$2" --e1 "$work/$1/loops.xml$2" \
+        --greens "$work/$1/greens.csv$2" --trajectories \
         --trajectories-file "trajectories.csv$2" >"$work/stdout" 2>"$work/stderr" ||
         fail "$1: exit code $?: $(head -c 300 "$work/stderr")"
 }
@@ -28,7 +29,7 @@ run_with compressed ".gz"
 # without comments, which hold the command line
 without_names() { grep -v -e '<!--' -e "$work" "$1"; }
 
-for name in {fcd,trips,loops}.{CTG-Ref,CDG}.xml trajectories.{CTG-Ref,CDG}.csv; do
+for name in {fcd,trips,loops}.{CTG-Ref,CDG}.xml {greens,trajectories}.{CTG-Ref,CDG}.csv; do
     [ -s "$work/plain/$name" ] || fail "$name is missing or empty: $(ls "$work/plain")"
     gzip -t "$work/compressed/$name.gz" || fail "$name.gz is not compressed: $(ls "$work/compressed")"
     gzip -dc "$work/compressed/$name.gz" >"$work/text"
@@ -39,7 +40,7 @@ done
 
 # Zstandard: the test skips the comparison of the text if no program can decompress it.
 run_with zstd ".zst"
-for name in {fcd,trips,loops}.{CTG-Ref,CDG}.xml trajectories.{CTG-Ref,CDG}.csv; do
+for name in {fcd,trips,loops}.{CTG-Ref,CDG}.xml {greens,trajectories}.{CTG-Ref,CDG}.csv; do
     [ "$(head -c 4 "$work/zstd/$name.zst" | od -An -tx1 | tr -d ' ')" = 28b52ffd ] || fail "$name.zst is not compressed"
     [ -e "$work/zstd/$name" ] && fail "$name is there as well as $name.zst"
     command -v zstd >/dev/null || continue
