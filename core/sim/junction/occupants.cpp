@@ -32,18 +32,24 @@ public:
     }
 
     // Adds the vehicles that have their front on an exit lane and their rear still inside the intersection. Checks only
-    // the last two vehicles on the exit lane. Returns false if the exit lane is empty, or if the last vehicle is wholly
-    // on the lane. All other vehicles are then wholly on the lane, too.
+    // the last two vehicles on the exit lane. If the exit lane is shorter than a vehicle, also adds vehicles with their
+    // front beyond it. Vehicles past the stop line of the exit lane count as inside since the present tick, because
+    // their VehicleRecord::junction_entry_tick holds for the next intersection. Returns false if there is nothing to
+    // add: the exit lane is empty, or its last vehicle and therefore all others are wholly on the lane, and no vehicle
+    // beyond it reaches back.
     bool add_from_exit(int exit) {
+        const bool is_short = state_.plan.lane(exit).length_m < state_.plan.max_space_per_vehicle_m();
+        const bool has_beyond = is_short && add_from_beyond(exit);
         const LaneBlock& block = state_.blocks[at(exit)];
         const auto reaches_back = [&](int slot) { return v_.position_m[at(slot)] < v_.length_m[at(slot)]; };
-        if (block.count == 0 || !reaches_back(block.last())) return false;
+        if (block.count == 0 || !reaches_back(block.last())) return has_beyond;
         for (int slot = std::max(block.first, block.past_last() - 2); slot < block.past_last(); ++slot) {
             if (!reaches_back(slot)) continue;
             const int from = v_.record[at(slot)].previous_lane;
-            if (from >= 0 && state_.plan.lane(from).exit == exit) {
-                add(from, slot, state_.plan.lane(from).length_m);
-            }
+            if (from < 0 || state_.plan.lane(from).exit != exit) continue;
+            const bool has_entered_next = v_.position_m[at(slot)] > state_.plan.lane(exit).next_limit_m;
+            add(from, slot, state_.plan.lane(from).length_m,
+                has_entered_next ? state_.tick : v_.record[at(slot)].junction_entry_tick);
         }
         return true;
     }
@@ -89,6 +95,25 @@ public:
     }
 
 private:
+    // Adds the vehicles that have their front beyond the exit lane, on a connection of the next intersection, and their
+    // rear still upstream of the exit lane. Returns true if there are any.
+    bool add_from_beyond(int exit) {
+        const double exit_m = state_.plan.lane(exit).length_m;
+        bool found = false;
+        for (const int next : state_.plan.next(exit)) {
+            const LaneBlock& block = state_.blocks[at(next)];
+            for (int slot = block.first; slot < block.past_last(); ++slot) {
+                if (exit_m + v_.position_m[at(slot)] >= v_.length_m[at(slot)]) continue;
+                const int from = v_.record[at(slot)].second_previous_lane;
+                if (v_.record[at(slot)].previous_lane != exit || from < 0 || state_.plan.lane(from).exit != exit)
+                    continue;
+                add(from, slot, state_.plan.lane(from).length_m + exit_m, state_.tick);
+                found = true;
+            }
+        }
+        return found;
+    }
+
     // Returns true if the vehicle will pass the line although the signal of its movement is not green. The caller asks
     // only for vehicles up to the one that was chosen to stop (StopLineState::stopping_vehicle). All vehicles ahead of
     // the chosen one pass the line, because they are too near to stop. In the step in which the light changes, no

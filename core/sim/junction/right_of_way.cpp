@@ -32,6 +32,7 @@
 #include "sim/junction/deadlocks.h"
 #include "sim/junction/gap_acceptance.h"
 #include "sim/junction/merging.h"
+#include "sim/junction/short_approaches.h"
 #include "sim/junction/stop_signs.h"
 #include "sim/state/queries/stopping_distance.h"
 
@@ -242,6 +243,15 @@ private:
         return wait;
     }
 
+    // Returns true if `occupant`, a vehicle on connection `other`, has just had to wait. If its front is past the
+    // connection, returns true if it may have to wait at the next intersection before its rear has left the connection.
+    // Another thread can be deciding about that intersection, so its decision is not read.
+    bool may_have_to_wait(int other, const JunctionOccupant& occupant) const {
+        const LanePlan& plan = state_.plan.lane(other);
+        if (occupant.front_m <= plan.length_m) return had_to_wait(state_, occupant.slot);
+        return state_.plan.lane(plan.exit).stop_line_m < state_.plan.max_space_per_vehicle_m();
+    }
+
     // Returns true if the waiting place of the candidate is the stop line, but it need not wait there: all vehicles of
     // the other connection will have left the conflict area before the candidate reaches the position just before this
     // area. Returns false if `blocker` is slow, or if a vehicle that has not left the area yet is slow or has just had
@@ -254,7 +264,7 @@ private:
             const double in_s =
                 earliest_arrival_s(wait_m(conflict) - candidate_.front_m, speed_mps_,
                                    driver_.give_way.approach_acceleration_mps2, state_.plan.lane(lane_).limit_mps);
-            const bool may_stop = speed_mps < kCrawlingSpeed_mps || had_to_wait(state_, occupant.slot);
+            const bool may_stop = speed_mps < kCrawlingSpeed_mps || may_have_to_wait(conflict.other, occupant);
             if (may_stop || (conflict.other_to_m - occupant.rear_m) / speed_mps > in_s) return false;
         }
         return true;
@@ -409,6 +419,7 @@ void decide_right_of_way(const Model& model, State& state, Partition& part) {
         return false;
     });
     part.approaching.clear(state.junctions.approaching_place);
+    stop_before_short_approaches(model, state, part);
     resolve_deadlocks(state, part);
     count_conflicts(model, state, part);
 }

@@ -18,13 +18,11 @@
 
 namespace stopline {
 
-namespace {
-
-// Returns the highest deceleration with which a driver stops for a signal. On yellow this is the setting
-// `stop.decision_deceleration`, on any other light the maximum braking.
 double stopping_deceleration_mps2(const DriverTables& driver, Light light) {
     return light == Light::yellow ? driver.stop.decision_deceleration_mps2 : driver.cacc.deceleration_emergency_mps2;
 }
+
+namespace {
 
 // Returns true if a stop needs more than 90 % of the maximum braking. The vehicle may then overrun the line: changes to
 // a lower gear can reduce the braking by up to a tenth, and can_stop() ignores these gear changes. Returns false in the

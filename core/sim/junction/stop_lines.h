@@ -10,4 +10,8 @@ namespace stopline {
 // the approaching vehicles for which right of way must be decided.
 void decide_stop_lines(const Model& model, State& state, Partition& part);
 
+// Returns the highest deceleration with which a driver stops for a signal. On yellow this is the setting
+// `stop.decision_deceleration`, on any other light the maximum braking.
+double stopping_deceleration_mps2(const DriverTables& driver, Light light);
+
 }  // namespace stopline
