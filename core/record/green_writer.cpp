@@ -18,8 +18,9 @@ std::string lanes_of(const LaneGraph& graph, int group) {
     std::string approach_lanes;
     std::string connections;
     for (const Lane& lane : graph.lanes) {
-        if (lane.signal_group != group) continue;
-        std::string& names = lane.origin < 0 ? approach_lanes : connections;
+        const bool is_connection = lane.origin >= 0;
+        if ((is_connection ? lane.movement_signal_group : lane.signal_group) != group) continue;
+        std::string& names = is_connection ? connections : approach_lanes;
         if (!names.empty()) names += ' ';
         names += lane.name;
     }
