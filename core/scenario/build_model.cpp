@@ -12,6 +12,7 @@
 #include "scenario/fleets.h"
 #include "scenario/import_sumo.h"
 #include "scenario/kinds/network_kind.h"
+#include "scenario/make_network.h"
 #include "signals/signal_controller.h"
 #include "sim/mesoscale/following_families.h"
 #include "v2v/platoon_length.h"
@@ -50,6 +51,15 @@ void add_loops(const Scenario& scenario, Model& model) {
     for (const SumoLoopPlace& loop : sumo_loops(scenario)) {
         const int name = static_cast<int>(model.loop_names.size());
         model.detectors.push_back({loop.lane, loop.position_m, Detector::Kind::loop, -1, false, name});
+        model.loop_names.push_back(loop.name);
+    }
+    for (const LoopSettings& loop : scenario.measure.loops) {
+        const std::vector<Lane>& lanes = model.graph.lanes;
+        const auto lane =
+            std::find_if(lanes.begin(), lanes.end(), [&](const Lane& one) { return one.name == loop.lane; });
+        const int name = static_cast<int>(model.loop_names.size());
+        model.detectors.push_back({static_cast<int>(lane - lanes.begin()), loop_position_m(loop, *lane),
+                                   Detector::Kind::loop, -1, false, name});
         model.loop_names.push_back(loop.name);
     }
 }

@@ -11,6 +11,7 @@
 #include "scenario/approach_names.h"
 #include "scenario/fleets.h"
 #include "scenario/kinds/network_kind.h"
+#include "scenario/make_network.h"
 #include "scenario/schema/quantity.h"
 #include "signals/actuation.h"
 
@@ -188,6 +189,32 @@ void check_measured_area(const Scenario& scenario, Checker& check) {
     check.error("measure.area_margin", "value " + metres(scenario.measure.area_margin_m) +
                                            " reaches beyond the end of the network: at most " + metres(max_margin_m) +
                                            ", the value of " + shortest_field);
+}
+
+void check_loops(const Scenario& scenario, Checker& check) {
+    constexpr std::size_t kListedMax = 12;
+    if (scenario.measure.loops.empty() || network_kind(scenario.network).has_trips) return;
+    const LaneGraph graph = make_network(scenario.network);
+    std::vector<std::string> known;
+    for (const Lane& lane : graph.lanes) {
+        if (lane.origin < 0) known.push_back(lane.name);
+    }
+    for (const LoopSettings& loop : scenario.measure.loops) {
+        const std::string field = "measure.loops[" + loop.name + "].";
+        const auto lane = std::find_if(graph.lanes.begin(), graph.lanes.end(),
+                                       [&](const Lane& one) { return one.origin < 0 && one.name == loop.lane; });
+        if (lane == graph.lanes.end()) {
+            check.error(field + "lane",
+                        "no lane has the name '" + loop.lane + "'" + known_names_hint(loop.lane, known, kListedMax));
+            continue;
+        }
+        const double from_start_m = loop_position_m(loop, *lane);
+        const double end_m = end_of_lane_m(*lane);
+        if (from_start_m >= 0.0 && from_start_m <= end_m) continue;
+        check.error(field + "position", "value " + metres(loop.position_m) + " is not on the lane " + loop.lane +
+                                            ": it is " + metres(end_m) + " long" +
+                                            (lane->signal_group >= 0 ? " up to the stop line" : ""));
+    }
 }
 
 int cycles_within_duration(const Scenario& scenario) {

@@ -25,6 +25,9 @@ void check_approaches(const Scenario& scenario, Checker& check);
 // Checks that the measured area of a grid or of streets lies inside the network.
 void check_measured_area(const Scenario& scenario, Checker& check);
 
+// Checks that the lane of each induction loop (measure.loops) exists and is long enough.
+void check_loops(const Scenario& scenario, Checker& check);
+
 // Returns the number of whole signal cycles of a single intersection from the end of the warm-up to the end of the run.
 int cycles_within_duration(const Scenario& scenario);
 

@@ -18,6 +18,13 @@ namespace stopline {
 
 inline constexpr const char* kNoBaseline = "none";
 
+// An induction loop across one lane. It counts the vehicles whose front passes.
+struct LoopSettings {
+    std::string name;
+    std::string lane;         // name of the lane in the lane graph
+    double position_m = 0.0;  // from the start of the lane; below 0: from the stop line, or from the end without one
+};
+
 struct MeasureSettings {
     // For network.kind `approach` only: times after the start of green at which the passed vehicles are counted.
     std::vector<double> green_s;
@@ -36,6 +43,7 @@ struct MeasureSettings {
     std::string energy = "off";            // off | on: measure fuel, CO2 and electric energy
     std::string surrogate_safety = "off";  // off | on: measure comfort and surrogate safety
     std::string hcm = "off";               // off | on: report the lanes by the Highway Capacity Manual
+    std::vector<LoopSettings> loops = {};  // for all networks but imported ones, which have loops in their files
     // For networks of several intersections only:
     double area_margin_m = 20.0;           // distance from the outer intersections to the boundary of the measured area
     double interval_s = 60.0;              // interval of the time series

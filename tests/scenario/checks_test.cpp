@@ -57,6 +57,22 @@ TEST(Checks, NoPopulationCanBeNamedNone) {
                          "comparison; give another name"));
 }
 
+TEST(Checks, LoopsLieOnLanes) {
+    const auto error = [](const std::string& loops, const std::string& kind = "intersection") {
+        return error_of("network: {kind: " + kind + "}\nmeasure: {loops: [" + loops + "]}\n");
+    };
+    EXPECT_EQ(error("{name: a, lane: west_in_0, position: 0 m}, {name: b, lane: west_in_0, position: -40 m}"), "");
+    EXPECT_TRUE(contains(error("{name: a, lane: west_out_0, position: 1 m}, {name: a, lane: west_in_0, position: 2 m}"),
+                         "field 'measure.loops[a].name': the name 'a' appears twice"));
+    EXPECT_TRUE(contains(error("{name: a, lane: west_on_0, position: 1 m}"),
+                         "field 'measure.loops[a].lane': no lane has the name 'west_on_0'; did you mean 'west_in_0'?"));
+    for (const std::string far : {"-1000 m", "1000 m"}) {
+        EXPECT_TRUE(contains(error("{name: a, lane: west_in_0, position: " + far + "}"),
+                             "field 'measure.loops[a].position': value " + far +
+                                 " is not on the lane west_in_0: it is 250 m long up to the stop line"));
+    }
+}
+
 TEST(Checks, OwnPoliciesReplacePoliciesOfThePaper) {
     const Scenario s =
         parse_scenario("policies: [{name: CDG, law: constant_distance, standstill_gap: 2 m}]\n", "x.yaml");

@@ -46,14 +46,15 @@ void add_inner_inlet_detectors(Model& model) {
     }
 }
 
-// Replaces all detectors, except those at stop lines, by detectors at the boundary of the measured area and at inlets
-// inside it. The boundary lies on the entry approaches and exit lanes of the network. Turn pockets wholly inside the
-// area get no detector, because vehicles reach them from the adjacent lane. An imported network gets trip detectors
-// instead.
+// Replaces the detectors of the network by detectors at the boundary of the measured area and at inlets inside it. Keeps
+// those at stop lines, those of signal controllers, and induction loops. The boundary lies on the entry approaches and
+// exit lanes of the network. Turn pockets wholly inside the area get no detector, because vehicles reach them from the
+// adjacent lane. An imported network gets trip detectors instead.
 void add_area_detectors(const Scenario& scenario, Model& model) {
     if (network_kind(scenario.network).has_trips) return add_trip_detectors(model);
     std::erase_if(model.detectors, [](const Detector& d) {
-        return d.kind != Detector::Kind::stop_line && d.kind != Detector::Kind::signal;
+        return d.kind != Detector::Kind::stop_line && d.kind != Detector::Kind::signal &&
+               d.kind != Detector::Kind::loop;
     });
     const double margin_m = scenario.measure.area_margin_m;
     model.area_begins_m.assign(model.graph.lanes.size(), 0.0);

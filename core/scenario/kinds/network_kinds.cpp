@@ -47,6 +47,12 @@ double Scenario::end_s() const {
 
 LaneGraph make_network(const NetworkSettings& network) { return network_kind(network).graph(network); }
 
+double end_of_lane_m(const Lane& lane) { return lane.signal_group >= 0 ? lane.stop_line_m : lane.length_m; }
+
+double loop_position_m(const LoopSettings& loop, const Lane& lane) {
+    return loop.position_m < 0.0 ? end_of_lane_m(lane) + loop.position_m : loop.position_m;
+}
+
 double radius_beyond_m(const NetworkSettings& network, const Lane& lane) {
     const NetworkKind& kind = network_kind(network);
     return kind.radius_beyond_m == nullptr ? 0.0 : kind.radius_beyond_m(network, lane);

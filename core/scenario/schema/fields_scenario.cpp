@@ -132,6 +132,8 @@ void refuse_unused_measures(const Scenario& scenario, Checker& check) {
     refuse("window", measure.window_s != defaults.window_s, kind.has_measured_area, kNetwork);
     refuse("area_margin", measure.area_margin_m != defaults.area_margin_m, kind.has_measured_area && !kind.has_trips,
            "grids and streets only: the other networks have no measured area, or measure the whole network");
+    refuse("loops", !measure.loops.empty(), !kind.has_trips,
+           "networks without SUMO files only: give an induction loop (inductionLoop) in a file of network.additional");
     refuse("starvation", measure.starvation_s != defaults.starvation_s, kind.has_intersections,
            "networks with intersections only");
 }
@@ -191,9 +193,31 @@ void check_scenario(const Scenario& scenario, Checker& check) {
     check_stop_detector(scenario, check);
     check_approaches(scenario, check);
     check_measured_area(scenario, check);
+    check_loops(scenario, check);
+    check_unique(names_of(scenario.measure.loops), "measure.loops", check);
     check_time_space(scenario, check);
     refuse_unused_measures(scenario, check);
     check_energy(scenario, check);
+}
+
+}  // namespace
+
+namespace {
+
+const Table& loop_table() {
+    using S = LoopSettings;
+    static const Table table = make_table<S>(
+        "an induction loop, which counts vehicles for --e1",
+        {
+            text<&S::name>("name", TextField::Rule::name, "id of the loop in the file of --e1").required(),
+            text<&S::lane>("lane", TextField::Rule::name, "name of its lane, such as west_in_0 or c0r0_west_in_0")
+                .required(),
+            number<&S::position_m>("position", "m", {-20'000, 20'000},
+                                   "distance from the start of the lane; below 0 m: from the stop line, or from the "
+                                   "end of a lane without stop line")
+                .required(),
+        });
+    return table;
 }
 
 }  // namespace
@@ -240,6 +264,9 @@ const Table& measure_table() {
                 "hcm", {"off", "on"},
                 "lanes with a signal: report saturation flow, capacity, control delay, queues and level of service of each "
                 "lane by the Highway Capacity Manual, in hcm.csv"),
+            list<&S::loops>("loops", loop_table, {0, 1000},
+                            "induction loops, in addition to the detectors that --e1 lists anyway; imported networks "
+                            "have theirs in additional files"),
             number<&S::area_margin_m>("area_margin", "m", {0, 10'000},
                                       "grids and streets: distance from the outer intersections to the boundary of the "
                                       "measured area, on their approaches and exit lanes")
