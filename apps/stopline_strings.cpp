@@ -13,6 +13,7 @@
 #include "base/io/command_files.h"
 #include "base/io/data_directory.h"
 #include "base/io/output.h"
+#include "base/state_hash.h"
 #include "base/units.h"
 #include "common/command_line.h"
 #include "common/examples.h"
@@ -233,9 +234,9 @@ ExitCode run_report(const StringsCliOptions& options, const Scenario& scenario, 
                scenario.vehicle_name, scenario.driver_name, strings.speed_mps * kKmhPerMps, string_text(report));
     std::vector<std::pair<std::string, std::string>> hashes;
     for (const StringResult& result : report.populations) {
-        std::uint64_t combined = 0;
-        for (const std::uint64_t hash : result.state_hashes) combined = combined * 1099511628211U + hash;
-        hashes.emplace_back(result.population, fmt::format("{:016x}", combined));
+        StateHash combined;
+        for (const std::uint64_t hash : result.state_hashes) combined.add(hash);
+        hashes.emplace_back(result.population, fmt::format("{:016x}", combined.value()));
     }
     std::vector<NamedText> tables{{"summary.csv", string_summary_csv(report)},
                                   {"positions.csv", string_positions_csv(report)}};

@@ -10,6 +10,7 @@
 #include "base/input_error.h"
 #include "base/io/csv.h"
 #include "base/io/output.h"
+#include "base/text_hash.h"
 #include "runs/program_identity.h"
 
 namespace stopline {

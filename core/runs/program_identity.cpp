@@ -4,15 +4,10 @@
 
 #include "base/input_error.h"
 #include "base/io/output.h"
+#include "base/text_hash.h"
 #include "base/version.h"
 
 namespace stopline {
-
-std::uint64_t hash_of(std::string_view bytes) {
-    std::uint64_t hash = 0xcbf29ce484222325ULL;
-    for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-    return hash;
-}
 
 std::optional<std::string> program_identity() {
     static const std::optional<std::string> identity = []() -> std::optional<std::string> {

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/text_hash.h"
 #include "scenario/driving_checks.h"
 #include "sumo_import/sumo_graph.h"
 #include "sumo_import/sumo_net.h"
@@ -109,7 +110,7 @@ std::string sumo_demand_warning(const Scenario& scenario) {
 
 std::uint64_t sumo_files_hash(const Scenario& scenario) {
     if (!scenario.network.sumo || !scenario.demand.sumo) return 0;
-    return scenario.network.sumo->net.hash * 0x100000001b3U ^ scenario.demand.sumo->hash;
+    return extended_hash(scenario.network.sumo->net.hash, scenario.demand.sumo->hash);
 }
 
 }  // namespace stopline

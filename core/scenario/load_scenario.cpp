@@ -8,6 +8,7 @@
 #include "base/input_error.h"
 #include "base/io/data_directory.h"
 #include "base/nearest_name.h"
+#include "base/text_hash.h"
 #include "scenario/compose.h"
 #include "scenario/demand/plan_arrivals.h"
 #include "scenario/demand/traffic_file.h"
@@ -219,13 +220,9 @@ std::string meso_yaml(const MesoSettings& meso, const std::string& comment) {
 std::string canonical_text(const Scenario& scenario) { return write_fields(scenario_table(), &scenario); }
 
 std::uint64_t scenario_hash(const Scenario& scenario) {
-    std::uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a, 64 bits
-    for (const char c : canonical_text(scenario)) {
-        hash ^= static_cast<unsigned char>(c);
-        hash *= 0x100000001b3u;
-    }
-    if (const std::uint64_t file = traffic_file_hash(scenario); file != 0) hash = (hash ^ file) * 0x100000001b3u;
-    if (const std::uint64_t files = sumo_files_hash(scenario); files != 0) hash = (hash ^ files) * 0x100000001b3u;
+    std::uint64_t hash = hash_of(canonical_text(scenario));
+    if (const std::uint64_t file = traffic_file_hash(scenario); file != 0) hash = extended_hash(hash, file);
+    if (const std::uint64_t files = sumo_files_hash(scenario); files != 0) hash = extended_hash(hash, files);
     return hash;
 }
 

@@ -12,6 +12,7 @@
 
 #include "base/nearest_name.h"
 #include "base/random.h"
+#include "base/text_hash.h"
 
 namespace stopline {
 
@@ -35,13 +36,6 @@ std::optional<double> parse_time_s(std::string_view text) {
         text = text.substr(0, colon);
     }
     return std::nullopt;
-}
-
-// Returns the 64-bit FNV-1a hash of the text, which is the same on every platform.
-std::uint64_t hash_of(std::string_view text) {
-    std::uint64_t hash = 0xcbf29ce484222325U;
-    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-    return hash;
 }
 
 class Flow {

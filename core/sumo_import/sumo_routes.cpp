@@ -14,6 +14,7 @@
 #include "base/containers/index.h"
 #include "base/input_error.h"
 #include "base/random.h"
+#include "base/text_hash.h"
 #include "sumo_import/sumo_departure.h"
 #include "sumo_import/sumo_flow.h"
 #include "sumo_import/sumo_router.h"
@@ -63,7 +64,7 @@ public:
             if (node.type() == pugi::node_element) read_element(node);
         }
         if (uses_defaults_) traffic_.notes.push_back(fmt::format("{}: {}", xml.name(), text_of(defaults_)));
-        traffic_.hash = traffic_.hash * 0x100000001b3U ^ xml.hash();
+        traffic_.hash = extended_hash(traffic_.hash, xml.hash());
         xml_ = nullptr;
     }
 

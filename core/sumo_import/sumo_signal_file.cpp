@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/containers/index.h"
+#include "base/text_hash.h"
 
 namespace stopline {
 
@@ -173,7 +174,7 @@ void read_sumo_additional(const std::filesystem::path& file, SumoNet& net) {
             warnings.note(xml.where(node), fmt::format("the element '{}' is ignored", name));
         }
     }
-    net.hash = net.hash * 0x100000001b3U ^ xml.hash();
+    net.hash = extended_hash(net.hash, xml.hash());
 }
 
 }  // namespace stopline

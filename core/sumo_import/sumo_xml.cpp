@@ -12,15 +12,16 @@
 
 #include "base/input_error.h"
 #include "base/nearest_name.h"
+#include "base/text_hash.h"
 #include "sumo_import/xml/xml_text.h"
 
 namespace stopline {
 
 namespace {
 
-// The 64-bit FNV-1a hash of a text, and the position of the first control character that XML does not allow.
+// The hash of a text, and the position of the first control character that XML does not allow.
 struct TextScan {
-    std::uint64_t hash = 0xcbf29ce484222325U;
+    std::uint64_t hash = kEmptyTextHash;
     std::size_t control_character = std::string::npos;
 };
 
@@ -30,8 +31,7 @@ TextScan scan(std::string_view text) {
     TextScan result;
     bool is_found = false;
     for (std::size_t k = 0; k < text.size(); ++k) {
-        result.hash ^= static_cast<unsigned char>(text[k]);
-        result.hash *= 0x100000001b3U;
+        result.hash = extended_hash(result.hash, text[k]);
         if (!is_forbidden(text[k]) || is_found) continue;
         result.control_character = k;
         is_found = true;

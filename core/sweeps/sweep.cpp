@@ -11,8 +11,8 @@
 
 #include "base/input_error.h"
 #include "base/nearest_name.h"
+#include "base/text_hash.h"
 #include "runs/interrupted.h"
-#include "runs/program_identity.h"
 #include "runs/run_metrics.h"
 #include "scenario/load_scenario.h"
 #include "scenario/schema/field_path.h"

@@ -5,8 +5,8 @@
 
 #include "base/input_error.h"
 #include "base/io/output.h"
+#include "base/text_hash.h"
 #include "paper/report/job.h"
-#include "runs/program_identity.h"
 
 namespace stopline {
 

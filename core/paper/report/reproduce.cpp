@@ -13,6 +13,7 @@
 #include "base/io/data_directory.h"
 #include "base/io/output.h"
 #include "base/io/replaced_file.h"
+#include "base/text_hash.h"
 #include "figures/gnuplot.h"
 #include "paper/report/work_estimate.h"
 #include "runs/interrupted.h"

@@ -21,6 +21,7 @@
 #include "base/input_error.h"
 #include "base/io/csv.h"
 #include "base/nearest_name.h"
+#include "base/text_hash.h"
 #include "demand/route_search.h"
 #include "demand/traffic_table.h"
 #include "scenario/demand/plan_arrivals.h"
@@ -314,8 +315,7 @@ std::vector<FieldProblem> read_traffic_file(Scenario& scenario, const std::files
     std::vector<FieldProblem> problems;
     try {
         TrafficReader reader(scenario, parse_csv(text, label));
-        auto table = std::make_shared<TrafficTable>(TrafficTable{reader.read(), 0xcbf29ce484222325U});
-        for (const char c : text) table->hash = (table->hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+        auto table = std::make_shared<TrafficTable>(TrafficTable{reader.read(), hash_of(text)});
         for (const std::string& problem : reader.problems()) {
             if (problems.size() < kReportedMax) problems.emplace_back(field, problem);
         }
