@@ -13,8 +13,8 @@
 #include <fmt/format.h>
 
 #include "base/input_error.h"
+#include "base/text_hash.h"
 #include "runs/interrupted.h"
-#include "runs/program_identity.h"
 
 #ifdef STOPLINE_MPI
 #include <mpi.h>

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/input_error.h"
-#include "runs/program_identity.h"
+#include "base/text_hash.h"
 #include "scenario/schema/quantity.h"
 
 namespace stopline {

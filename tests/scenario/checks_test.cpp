@@ -69,7 +69,7 @@ TEST(Checks, LoopsLieOnLanes) {
     for (const std::string far : {"-1000 m", "1000 m"}) {
         EXPECT_TRUE(contains(error("{name: a, lane: west_in_0, position: " + far + "}"),
                              "field 'measure.loops[a].position': value " + far +
-                                 " is not on the lane west_in_0: it is 250 m long up to the stop line"));
+                                 " is not on the lane west_in_0: it is 200 m long up to the stop line"));
     }
 }
 
