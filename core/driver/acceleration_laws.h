@@ -136,12 +136,17 @@ STOPLINE_INLINE R stop_acceleration(const DriverTablesOf<Number>& d, const R& sp
     return late + kSpeedGain_1ps * (curve_mps - speed_mps) - b * speed_mps / (curve_mps + bt);
 }
 
-// Returns the acceleration for a stop at a line, also if the vehicle learns of the stop late. If it is too late to
-// follow the curve of stop_acceleration(), the vehicle brakes with the constant deceleration that is needed.
+// Returns the acceleration for a stop at a line, also if the vehicle learns of the stop too late to follow the curve of
+// stop_acceleration(). It then brakes at least with the constant deceleration v^2 / (2 distance) that is needed, and at
+// most with the one that is needed if it brakes only after the time kBrakingReaction_s. A vehicle far above the curve
+// thus brakes evenly, and not hard at first and gently afterwards.
 inline double stop_at_line_acceleration(const DriverTables& d, double speed_mps, double distance_m) {
-    const double needed_mps2 = 0.5 * square(speed_mps) / max_of(distance_m, 0.1);
-    const double on_curve_mps2 = stop_acceleration(d, speed_mps, distance_m);
-    return needed_mps2 > d.stop.deceleration_mps2 ? min_of(on_curve_mps2, -needed_mps2) : on_curve_mps2;
+    const auto constant_mps2 = [=](double room_m) { return 0.5 * square(speed_mps) / max_of(room_m, 0.1); };
+    const double needed_mps2 = constant_mps2(distance_m);
+    const double later_mps2 = constant_mps2(distance_m - speed_mps * kBrakingReaction_s);
+    const double b = d.stop.deceleration_mps2;
+    const double limited_mps2 = max_of(stop_acceleration(d, speed_mps, distance_m), -max_of(b, later_mps2));
+    return needed_mps2 > b ? min_of(limited_mps2, -needed_mps2) : limited_mps2;
 }
 
 // Returns the stopping distance along the curve of stop_acceleration(): v^2 / (2 b) + v tau.

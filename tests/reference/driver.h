@@ -59,10 +59,15 @@ inline double stop_after_mps2(const DriverModel& d, double speed_mps, double dis
     return (distance_m > 0.0 ? 0.0 : -b) + kGain_1ps * (curve_mps - speed_mps) - b * speed_mps / (curve_mps + bt);
 }
 
+// Returns the acceleration for a stop at a line: along the curve, but between the deceleration that is needed now and the
+// one that is needed after kLanding_s without braking.
 inline double stop_at_line_mps2(const DriverModel& d, double speed_mps, double distance_m) {
+    const double b = d.settings.stop.deceleration_mps2;
     const double needed_mps2 = 0.5 * squared(speed_mps) / std::max(distance_m, 0.1);
-    const double curve_mps2 = stop_after_mps2(d, speed_mps, distance_m);
-    return needed_mps2 > d.settings.stop.deceleration_mps2 ? std::min(curve_mps2, -needed_mps2) : curve_mps2;
+    const double later_mps2 = 0.5 * squared(speed_mps) / std::max(distance_m - speed_mps * kLanding_s, 0.1);
+    double mps2 = std::max(stop_after_mps2(d, speed_mps, distance_m), -std::max(b, later_mps2));
+    if (needed_mps2 > b) mps2 = std::min(mps2, -needed_mps2);
+    return mps2;
 }
 
 // Returns the acceleration for a stop behind the leader; infinity if the leader is not about to stop.

@@ -243,8 +243,8 @@ bool insert_trip(const Model& model, State& state, int number, const InsertionPo
     constexpr double kLaneChange_1ps = 0.5;
     if (lane_route < 0) limit_mps = std::min(limit_mps, kLaneChange_1ps * road.stop_line_m);
     const double to_line_m = road.stop_line_m - point.front_m;
-    const double stoppable_mps = std::sqrt(2.0 * model.driver_of(policy).tables.stop.deceleration_mps2 * to_line_m);
-    if (road.signal_group >= 0) limit_mps = std::min(limit_mps, stoppable_mps);
+    if (road.signal_group >= 0)
+        limit_mps = std::min(limit_mps, reliably_stoppable_speed_mps(model, model.driver_of(policy), to_line_m));
     const double wanted_mps = wanted_speed_mps(model, state, number, point.lane, limit_mps, leader);
     const double speed_mps = departure_speed_mps(model, trip, policy, wanted_mps, leader);
     const double rear_m = point.front_m - static_cast<double>(trip.length_m);

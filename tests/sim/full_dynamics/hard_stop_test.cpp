@@ -46,7 +46,8 @@ Stop stop_at_end_of_green(const std::string& vehicle, const Law& law, double gre
     plan.length_m = 800.0;
     plan.green_s = green_s;
     plan.overrides = {std::string("policies=[{name: P, standstill_gap: 2 m, ") + law.fields + "}]", "populations=[P]",
-                      "measure.baseline=P", "demand.vehicles=1", law.driver};
+                      "measure.baseline=P", "demand.vehicles=1", "driver.stop.decision_deceleration=6 m/s2",
+                      law.driver};
     Scenario scenario = scenario_of(plan);
     scenario.signal.yellow_s = 0.0;
     EXPECT_EQ(scenario.policies.back().standstill_gap_m, kMinStandstillGap_m);

@@ -74,6 +74,37 @@ TEST_P(Stopping, StopsBeforeARedSignal) {
     }
 }
 
+// A vehicle learns of a red signal when it is closer than its comfortable stopping distance. It brakes about as hard as
+// a vehicle must that drives on for kBrakingReaction_s and then brakes evenly.
+TEST_P(Stopping, BrakesEvenlyIfItLearnsOfTheStopLate) {
+    constexpr double kSpeed_mps = 50.0 / 3.6;
+    constexpr double kOvershoot = 1.25;  // lags of the brake of up to 0.3 s use up a part of the time
+    std::vector<double> distances_m;
+    for (double distance_m = 28.0; distance_m <= 64.0; distance_m += 4.0) distances_m.push_back(distance_m);
+    Track track(red_road(GetParam(), distances_m.size()));
+    for (std::size_t k = 0; k < distances_m.size(); ++k)
+        track.place(static_cast<int>(2 * k), 1000.0 - distances_m[k], kSpeed_mps);
+    std::vector<double> hardest_mps2(distances_m.size());
+    while (track.time_s() < 12.0) {
+        track.step();
+        for (std::size_t k = 0; k < distances_m.size(); ++k) {
+            const double braking_mps2 = -track.vehicle(static_cast<int>(2 * k), 0).acceleration_mps2;
+            hardest_mps2[k] = std::max(hardest_mps2[k], braking_mps2);
+        }
+    }
+    const StopSettings& stop = track.model().common_driver().stop;
+    bool was_late = false;
+    for (std::size_t k = 0; k < distances_m.size(); ++k) {
+        SCOPED_TRACE(std::to_string(distances_m[k]) + " m away");
+        const double room_m = distances_m[k] - stop.margin_m - kSpeed_mps * kBrakingReaction_s;
+        const double later_mps2 = kSpeed_mps * kSpeed_mps / (2.0 * room_m);
+        EXPECT_LT(hardest_mps2[k], kOvershoot * std::max(later_mps2, stop.deceleration_mps2));
+        EXPECT_GT(1000.0 - track.vehicle(static_cast<int>(2 * k), 0).position_m, 0.0);
+        was_late = was_late || later_mps2 > 1.5 * stop.deceleration_mps2;
+    }
+    EXPECT_TRUE(was_late);
+}
+
 TEST_P(Stopping, StopsBehindAStoppedVehicle) {
     const std::vector<InitialState> states = feasible_states(GetParam().vehicle);
     Track track(red_road(GetParam(), states.size()));

@@ -30,6 +30,13 @@ inline double reliable_stopping_distance_m(const Model& model, const DriverPlan&
                       : stopping_distance_m(driver.tables, speed_mps);
 }
 
+// Returns the speed whose reliable_stopping_distance_m() is `distance_m`, 0 or more.
+inline double reliably_stoppable_speed_mps(const Model& model, const DriverPlan& driver, double distance_m) {
+    const double b = driver.tables.stop.deceleration_mps2;
+    const double reaction_mps = model.meso ? 0.0 : b * kBrakingReaction_s;
+    return std::sqrt(square(reaction_mps) + 2.0 * b * distance_m) - reaction_mps;
+}
+
 // Mesoscale mode: returns how vehicles of a policy brake before a stop line. The deceleration is that of the
 // car-following model, but at most `stop.deceleration` of the driver settings.
 inline FollowingBraking stop_line_braking(const Model& model, int policy) {
@@ -109,7 +116,7 @@ inline double max_stoppable_speed_mps(const Model& model, const DriverPlan& driv
     const Lane& road = model.graph.lanes[at(lane)];
     if (road.signal_group < 0 || front_m > road.stop_line_m) return kUnlimitedSpeed_mps;
     const double room_m = std::max(road.stop_line_m - driver.tables.stop.margin_m - front_m, 0.0);
-    return std::sqrt(2.0 * driver.tables.stop.deceleration_mps2 * room_m);
+    return reliably_stoppable_speed_mps(model, driver, room_m);
 }
 
 }  // namespace stopline
