@@ -59,8 +59,8 @@ inline double stop_after_mps2(const DriverModel& d, double speed_mps, double dis
     return (distance_m > 0.0 ? 0.0 : -b) + kGain_1ps * (curve_mps - speed_mps) - b * speed_mps / (curve_mps + bt);
 }
 
-// Returns the acceleration for a stop at a line: along the curve, but between the deceleration that is needed now and the
-// one that is needed after kLanding_s without braking.
+// Returns the acceleration for a stop at a line: along the curve, but between the deceleration that is needed now and
+// the one that is needed after kLanding_s without braking.
 inline double stop_at_line_mps2(const DriverModel& d, double speed_mps, double distance_m) {
     const double b = d.settings.stop.deceleration_mps2;
     const double needed_mps2 = 0.5 * squared(speed_mps) / std::max(distance_m, 0.1);
