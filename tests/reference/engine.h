@@ -6,6 +6,7 @@
 
 #include "reference/insertion/trips.h"
 #include "reference/junction/right_of_way.h"
+#include "reference/junction/short_approaches.h"
 #include "reference/junction/stop_lines.h"
 #include "reference/lane_change/gap_search.h"
 #include "reference/lane_change/lane_change.h"
@@ -38,6 +39,7 @@ public:
           perception_(w_),
           stop_lines_(w_),
           right_of_way_(w_),
+          short_approaches_(w_, routes_),
           gap_search_(w_, routes_),
           lane_changes_(w_, routes_),
           platoons_(w_) {
@@ -59,6 +61,8 @@ public:
         OccupantSearch(w_).search();
         stop_lines_.decide();
         right_of_way_.decide();
+        short_approaches_.add_stops();
+        right_of_way_.resolve_deadlocks();
         gap_search_.search();
         w_.is_meso ? move_meso() : move_full();
         transfer();
@@ -405,6 +409,7 @@ private:
     Perception perception_;
     StopLines stop_lines_;
     RightOfWay right_of_way_;
+    ShortApproaches short_approaches_;
     GapSearch gap_search_;
     LaneChanges lane_changes_;
     Platoons platoons_;

@@ -205,13 +205,14 @@ struct Situations {
     std::int64_t time_gap_steps = 0;    // vehicle steps in which the leader of a mini-platoon keeps a time gap
     std::int64_t entered_late = 0;      // vehicles that found no room when they were due
     std::int64_t exited = 0;
-    std::int64_t held_at_green = 0;  // vehicle steps in which the keep-clear rule holds a vehicle
-    std::int64_t deadlocks = 0;      // steps in which slow vehicles waited for each other in a cycle
-    std::int64_t yielded = 0;        // vehicles that began to wait before a conflict area
-    std::int64_t gaps_accepted = 0;  // vehicles that accepted a gap between vehicles with priority
-    std::int64_t gaps_refused = 0;   // vehicle steps in which a vehicle with priority arrives too soon
-    std::int64_t merged = 0;         // vehicle steps in which a vehicle follows one that merges ahead of it
-    std::int64_t stop_signs = 0;     // vehicles that stopped at a stop sign
+    std::int64_t held_at_green = 0;      // vehicle steps in which the keep-clear rule holds a vehicle
+    std::int64_t deadlocks = 0;          // steps in which slow vehicles waited for each other in a cycle
+    std::int64_t yielded = 0;            // vehicles that began to wait before a conflict area
+    std::int64_t gaps_accepted = 0;      // vehicles that accepted a gap between vehicles with priority
+    std::int64_t gaps_refused = 0;       // vehicle steps in which a vehicle with priority arrives too soon
+    std::int64_t merged = 0;             // vehicle steps in which a vehicle follows one that merges ahead of it
+    std::int64_t stops_beyond_lane = 0;  // vehicle steps in which a vehicle must be able to stop beyond its lane
+    std::int64_t stop_signs = 0;         // vehicles that stopped at a stop sign
     std::int64_t mandatory_changes = 0;
     std::int64_t let_in_waiting = 0;  // queued vehicles that let in a vehicle at its waiting position
     std::int64_t discretionary_changes = 0;
@@ -232,7 +233,7 @@ struct Situations {
               &Situations::stop_signs,      &Situations::mandatory_changes,  &Situations::discretionary_changes,
               &Situations::alignments,      &Situations::hidden_leaders,     &Situations::human_steps,
               &Situations::gear_changes,    &Situations::emergency_brakings, &Situations::slowed_before_limit,
-              &Situations::let_in_waiting}) {
+              &Situations::let_in_waiting,  &Situations::stops_beyond_lane}) {
             this->*count += other.*count;
         }
     }

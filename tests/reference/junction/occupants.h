@@ -68,9 +68,12 @@ public:
         for (const std::size_t number : w_.order) {
             Lane& connection = w_.lanes[number];
             if (!connection.is_connection()) continue;
-            for (Vehicle& v : w_.lane(connection.exit).vehicles) {
+            Lane& exit = w_.lane(connection.exit);
+            if (exit.length_m < w_.longest_space_m()) add_from_beyond(connection, exit);
+            for (Vehicle& v : exit.vehicles) {
                 if (v.position_m < v.length_m && v.previous_lane == connection.number)
-                    add(connection.number, v, connection.length_m, v.entry_tick);
+                    add(connection.number, v, connection.length_m,
+                        v.position_m > exit.next_limit_m ? w_.tick : v.entry_tick);
             }
             for (Vehicle& v : connection.vehicles) add(connection.number, v, 0.0, v.entry_tick);
         }
@@ -80,6 +83,17 @@ public:
     }
 
 private:
+    // Adds the vehicles on the connections behind a short exit lane whose rear is still upstream of this lane.
+    void add_from_beyond(const Lane& connection, const Lane& exit) {
+        for (const int next : exit.next) {
+            for (Vehicle& v : w_.lane(next).vehicles) {
+                const bool reaches_back = exit.length_m + v.position_m < v.length_m;
+                if (reaches_back && v.previous_lane == exit.number && v.second_previous_lane == connection.number)
+                    add(connection.number, v, connection.length_m + exit.length_m, w_.tick);
+            }
+        }
+    }
+
     // Adds the vehicles on an approach lane that have passed the stop line, or that will pass it without green.
     void search_approach(Lane& approach) {
         for (Vehicle& v : approach.vehicles) {

@@ -51,8 +51,9 @@ public:
                 decide_candidate(candidate, -origin.length_m, ahead);
             }
         }
-        deadlocks_.resolve();
     }
+    // To be called when all yield stops of the step are known.
+    void resolve_deadlocks() { deadlocks_.resolve(); }
 
 private:
     void set_priority(int connection, int other, bool yields, bool other_yields) {
@@ -284,6 +285,14 @@ private:
         return was_waiting || gaps_.occupies_area_on_arrival(c, conflict, *committed) ? committed : nullptr;
     }
 
+    // Returns true if an occupant of a connection has just had to wait, or may have to wait at the next intersection
+    // before its rear leaves the connection.
+    bool may_have_to_wait(int connection, const Occupant& other) const {
+        const Lane& lane = w_.lane(connection);
+        if (other.front_m <= lane.length_m) return other.vehicle->yield_tick >= w_.tick - 1;
+        return w_.lane(lane.exit).stop_line_m < w_.longest_space_m();
+    }
+
     // Returns true if a candidate that may wait at its line only need not wait there, because all vehicles of the other
     // connection leave the area before it arrives.
     bool clears_in_time(const Candidate& c, const Conflict& conflict, const Places& places,
@@ -294,7 +303,7 @@ private:
                                                w_.lane(c.connection).limit_mps);
         for (const Occupant& other : w_.occupants[static_cast<std::size_t>(conflict.other)]) {
             if (other.rear_m >= conflict.other_to_m) continue;
-            const bool may_stop = other.vehicle->is_slow() || other.vehicle->yield_tick >= w_.tick - 1;
+            const bool may_stop = other.vehicle->is_slow() || may_have_to_wait(conflict.other, other);
             if (may_stop || (conflict.other_to_m - other.rear_m) / other.vehicle->speed_mps > in_s) return false;
         }
         return true;

@@ -23,25 +23,26 @@ public:
         }
     }
 
-private:
+    // Returns the highest deceleration with which the vehicle stops for a light.
     double stopping_mps2(const Vehicle& v, Light light) const {
         const DriverSettings& driver = w_.driver(v);
         return light == Light::yellow ? driver.stop.decision_deceleration_mps2
                                       : driver.cacc.deceleration_emergency_mps2;
     }
 
-    // Returns true if the vehicle can stop before the line with the given deceleration. Until the brake responds, the
-    // vehicle keeps its present acceleration if this is positive.
-    bool can_stop(const Vehicle& v, const Lane& lane, double deceleration_mps2) const {
+    // Returns true if the vehicle can stop before a line with the given deceleration. Until the brake responds, the
+    // vehicle keeps its present acceleration if this is positive. `line_m`: from the start of the vehicle's lane.
+    bool can_stop(const Vehicle& v, double line_m, double deceleration_mps2) const {
         const double present_mps2 = std::max(v.acceleration_mps2, 0.0);
         const double request_mps2 = w_.is_meso ? present_mps2 : std::max(present_mps2, v.request_mps2);
         const double delay_s = w_.kind(v).vehicle.settings.brake_lag_s +
                                0.5 * (request_mps2 + deceleration_mps2) / w_.driver(v).cacc.jerk_down_mps3;
         const double speed_mps = v.speed_mps + present_mps2 * delay_s;
         const double delay_m = (v.speed_mps + 0.5 * present_mps2 * delay_s) * delay_s;
-        return speed_mps * speed_mps <= 2.0 * deceleration_mps2 * (lane.stop_line_m - v.position_m - delay_m);
+        return speed_mps * speed_mps <= 2.0 * deceleration_mps2 * (line_m - v.position_m - delay_m);
     }
 
+private:
     // On the last edge of its trip, a vehicle is removed at the line and ignores the signal.
     bool ends_trip_here(const Vehicle& v) const {
         return v.next_lane < 0 && v.trip >= 0 && w_.route_of(v.route).size() == 1;
@@ -65,7 +66,7 @@ private:
         }
         if (stopper == lane.vehicles.end()) {
             stopper = std::find_if(lane.vehicles.begin(), lane.vehicles.end(), [&](const Vehicle& v) {
-                return !ends_trip_here(v) && can_stop(v, lane, stopping_mps2(v, light));
+                return !ends_trip_here(v) && can_stop(v, lane.stop_line_m, stopping_mps2(v, light));
             });
         }
         lane.stopping_id = -1;
@@ -82,7 +83,7 @@ private:
             const Light light = w_.light(group);
             const bool hesitates = v.id == chosen && w_.tick < w_.since(group) + w_.kind(v).hesitation_ticks;
             if (light == Light::green && !hesitates) continue;
-            if (v.id != chosen && !can_stop(v, lane, stopping_mps2(v, light))) continue;
+            if (v.id != chosen && !can_stop(v, lane.stop_line_m, stopping_mps2(v, light))) continue;
             stop(lane, v);
             return true;
         }
@@ -179,8 +180,9 @@ private:
         const CaccSettings& cacc = w_.driver(v).cacc;
         const double peak_mps2 =
             std::min(kLagFactor * w_.driver(v).stop.deceleration_mps2, cacc.deceleration_emergency_mps2);
-        if (peak_mps2 <= cacc.deceleration_comfort_mps2) return can_stop(v, lane, cacc.deceleration_comfort_mps2);
-        if (!w_.is_meso) return can_stop(v, lane, peak_mps2);
+        if (peak_mps2 <= cacc.deceleration_comfort_mps2)
+            return can_stop(v, lane.stop_line_m, cacc.deceleration_comfort_mps2);
+        if (!w_.is_meso) return can_stop(v, lane.stop_line_m, peak_mps2);
         return v.speed_mps * v.speed_mps <= 2.0 * peak_mps2 * (lane.stop_line_m - v.position_m);
     }
 
