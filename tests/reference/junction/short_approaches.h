@@ -11,7 +11,7 @@ class ShortApproaches {
 public:
     ShortApproaches(World& world, const Routes& routes) : w_(world), routes_(routes), stop_lines_(world) {}
 
-    // Adds the yield stops of vehicles upstream of their next approach lane. To be called after right of way is decided.
+    // Adds the yield stops of vehicles upstream of their next approach lane. Call it after right of way is decided.
     void add_stops() {
         if (!w_.is_imported) return;
         for (Lane& lane : w_.lanes) {
