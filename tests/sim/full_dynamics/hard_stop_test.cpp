@@ -45,8 +45,11 @@ Stop stop_at_end_of_green(const std::string& vehicle, const Law& law, double gre
     plan.policy = "P";
     plan.length_m = 800.0;
     plan.green_s = green_s;
-    plan.overrides = {std::string("policies=[{name: P, standstill_gap: 2 m, ") + law.fields + "}]", "populations=[P]",
-                      "measure.baseline=P", "demand.vehicles=1", "driver.stop.decision_deceleration=6 m/s2",
+    plan.overrides = {std::string("policies=[{name: P, standstill_gap: 2 m, ") + law.fields + "}]",
+                      "populations=[P]",
+                      "measure.baseline=P",
+                      "demand.vehicles=1",
+                      "driver.stop.decision_deceleration=6 m/s2",
                       law.driver};
     Scenario scenario = scenario_of(plan);
     scenario.signal.yellow_s = 0.0;

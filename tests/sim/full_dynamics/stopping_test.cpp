@@ -80,7 +80,7 @@ TEST_P(Stopping, BrakesEvenlyIfItLearnsOfTheStopLate) {
     constexpr double kSpeed_mps = 50.0 / 3.6;
     constexpr double kOvershoot = 1.25;  // lags of the brake of up to 0.3 s use up a part of the time
     std::vector<double> distances_m;
-    for (double distance_m = 28.0; distance_m <= 64.0; distance_m += 4.0) distances_m.push_back(distance_m);
+    for (int k = 0; k < 10; ++k) distances_m.push_back(28.0 + 4.0 * k);
     Track track(red_road(GetParam(), distances_m.size()));
     for (std::size_t k = 0; k < distances_m.size(); ++k)
         track.place(static_cast<int>(2 * k), 1000.0 - distances_m[k], kSpeed_mps);
