@@ -23,8 +23,7 @@ std::string starvation_text(const Scenario& scenario, const std::vector<Populati
     }
     const std::string limit = fmt::format("{:g} s (measure.starvation)", scenario.measure.starvation_s);
     if (text.empty()) return "No movement starves: no first vehicle of a queue waits for " + limit + ".\n";
-    return "STARVATION: the first vehicle of a queue waits for " + limit + " although nothing blocks its way.\n" +
-           text;
+    return "STARVATION: the first vehicle of a queue waits for " + limit + " although nothing blocks its way.\n" + text;
 }
 
 }  // namespace stopline

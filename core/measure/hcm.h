@@ -44,7 +44,7 @@ struct HcmInterval {
     double from_s = 0.0;
     double to_s = 0.0;
     double green_from_s = 0.0;
-    double green_to_s = 0.0;  // equal to green_from_s: no green
+    double green_to_s = 0.0;      // equal to green_from_s: no green
     int back_veh = 0;             // vehicles in the queue at the start of red, and vehicles that joined it later
     double back_m = 0.0;          // greatest distance from the stop line to the rear of a queued vehicle
     int residual_veh = 0;         // queued vehicles that have not passed at the end of the interval

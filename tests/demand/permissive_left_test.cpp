@@ -185,8 +185,8 @@ struct GapAcceptance {
             total_s += headway_s;
             const double surplus_s = headway_s - shortest_s.back();
             if (surplus_s >= 0.0) vehicles += std::floor(surplus_s / follow_up_s);
-            vehicles += static_cast<double>(
-                std::upper_bound(shortest_s.begin(), shortest_s.end(), headway_s) - shortest_s.begin());
+            vehicles += static_cast<double>(std::upper_bound(shortest_s.begin(), shortest_s.end(), headway_s) -
+                                            shortest_s.begin());
         }
         return vehicles * 3600.0 / total_s;
     }

@@ -46,7 +46,7 @@ private:
     };
     // The cycles of the signal of a lane (SignalCycles).
     struct LaneCycles {
-        std::int64_t present = SignalCycles::kNoCycle;         // at the last sample
+        std::int64_t present = SignalCycles::kNoCycle;        // at the last sample
         std::int64_t of_last_green = SignalCycles::kNoCycle;  // in which the last green of the lane ended
     };
 

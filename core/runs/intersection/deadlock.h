@@ -58,7 +58,7 @@ private:
 
     const Model& model_;
     std::int64_t limit_ticks_;
-    std::int64_t watched_ticks_;  // lawful waits are looked for in longer stays only
+    std::int64_t watched_ticks_;                    // lawful waits are looked for in longer stays only
     std::map<int, std::int64_t> last_lawful_tick_;  // [vehicle] of the vehicles inside that have waited lawfully
     std::optional<Deadlock> deadlock_;
 };

@@ -13,7 +13,8 @@ std::vector<ColumnDoc> hcm_columns() {
          "at the start of red after its last green in a cycle of the controller. If the controller skips the phase of "
          "the lane, or if its green lasts longer, the cycle of the lane ends with that of the controller"},
         {"cycle_s", "s", "window", "mean length of these cycles"},
-        {"green_s", "s", "window", "mean green time in a cycle: the sum, if the lane has several greens in a cycle. A cycle without green counts as 0 s"},
+        {"green_s", "s", "window",
+         "mean green time in a cycle: the sum, if the lane has several greens in a cycle. A cycle without green counts as 0 s"},
         {"saturated_greens", "", "window",
          "greens in which five or more vehicles of a queue pass. Below 5 greens, saturation flow and lost time are "
          "means of all lanes"},

@@ -221,7 +221,8 @@ const Table& human_table() {
             number<&S::reaction_spread_s>(
                 "reaction_spread", "s", {0, 2},
                 "largest deviation of a reaction time from its mean; `start_reaction` deviates by the same percentage"),
-            number<&S::gap_error>("gap_error", kPlainShare, {0, 0.5}, "standard deviation of the estimated gap, relative"),
+            number<&S::gap_error>("gap_error", kPlainShare, {0, 0.5},
+                                  "standard deviation of the estimated gap, relative"),
             number<&S::closing_error_1ps>("closing_error", "1/s", {0, 0.1},
                                           "standard deviation of the estimated closing speed per metre of gap"),
             number<&S::error_time_s>("error_time", "s", {0.1, 1000}, "correlation time of both errors"),

@@ -38,7 +38,8 @@ const Table& krauss_table() {
                                           "b: deceleration that the safe speed assumes"),
             number<&S::reaction_s>("reaction", "s", {0, 5}, "tau: reaction time that the safe speed assumes"),
             number<&S::standstill_gap_m>("standstill_gap", "m", {0.1, 20}, "s_0 (minGap): net gap at standstill"),
-            number<&S::dawdling>("dawdling", kPlainShare, {0, 1}, "sigma: share of the acceleration that is lost at random"),
+            number<&S::dawdling>("dawdling", kPlainShare, {0, 1},
+                                 "sigma: share of the acceleration that is lost at random"),
         });
     return table;
 }
