@@ -26,7 +26,8 @@ std::string close_junctions_net() {
     return R"(<net version="1.20">
 <edge id=":J_0" function="internal"><lane id=":J_0_0" index="0" speed="13.89" length="10" shape="0,-5 0,5"/></edge>
 <edge id=":J_1" function="internal"><lane id=":J_1_0" index="0" speed="13.89" length="10" shape="-5,0 5,0"/></edge>
-<edge id=":J_2" function="internal"><lane id=":J_2_0" index="0" speed="7" length="7.2" shape="-5,0 -1.5,1.5 0,5"/></edge>
+<edge id=":J_2" function="internal">
+<lane id=":J_2_0" index="0" speed="7" length="7.2" shape="-5,0 -1.5,1.5 0,5"/></edge>
 <edge id=":K_0" function="internal"><lane id=":K_0_0" index="0" speed="13.89" length="10" shape="7,-5 7,5"/></edge>
 <edge id=":K_1" function="internal"><lane id=":K_1_0" index="0" speed="13.89" length="10" shape="5.2,0 15.2,0"/></edge>
 <edge id="w" from="W" to="J"><lane id="w_0" index="0" speed="13.89" length="200" shape="-205,0 -5,0"/></edge>

@@ -14,7 +14,8 @@ std::vector<ColumnDoc> hcm_columns() {
          "the lane, or if its green lasts longer, the cycle of the lane ends with that of the controller"},
         {"cycle_s", "s", "window", "mean length of these cycles"},
         {"green_s", "s", "window",
-         "mean green time in a cycle: the sum, if the lane has several greens in a cycle. A cycle without green counts as 0 s"},
+         "mean green time in a cycle: the sum, if the lane has several greens in a cycle. A cycle without green counts "
+         "as 0 s"},
         {"saturated_greens", "", "window",
          "greens in which five or more vehicles of a queue pass. Below 5 greens, saturation flow and lost time are "
          "means of all lanes"},
