@@ -1,7 +1,7 @@
 // Loads YAML files into settings structs, with all defaults filled in, checked, and in SI units. Throws InputError for
 // any bad input.
 //
-// One table of fields (schema/field_table.h, rows in schema/fields_*.cpp) drives parsing, error messages, the list of
+// One table of fields (schema/field_table.h, rows in schema/fields/*.cpp) drives parsing, error messages, the list of
 // fields, the JSON schema and canonical_text(). A new parameter needs a struct member and one row that names it.
 //
 // The text of an InputError has one line per error, at most 20 lines:

@@ -66,7 +66,7 @@ struct NetworkKind {
     double (*highest_limit_mps)(const NetworkSettings& network) = nullptr;  // highest speed limit
     double (*lane_width_m)(const NetworkSettings& network) = nullptr;       // for drawings
     // Checks the settings beyond the ranges of single fields. Checks that all kinds share are in
-    // schema/fields_scenario.cpp.
+    // schema/fields/scenario.cpp.
     void (*check)(const Scenario& scenario, Checker& check) = nullptr;
 
     // Functions that a kind need not have.

@@ -1,4 +1,4 @@
-// The tables of fields, one per settings struct. A new field needs a struct member and one row in fields_*.cpp.
+// The tables of fields, one per settings struct. A new field needs a struct member and one row in fields/*.cpp.
 #pragma once
 
 #include <string>

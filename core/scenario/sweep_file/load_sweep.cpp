@@ -185,7 +185,7 @@ std::vector<std::string> axis_overrides(const SweepAxis& axis, std::size_t value
     for (std::size_t i = 0; i < parts.size() && i < axis.paths.size(); ++i) {
         overrides.push_back(axis.paths[i] + "=" + parts[i]);
     }
-    // A value with more parts than paths gets an additional empty override. check_values() in fields_sweep.cpp then
+    // A value with more parts than paths gets an additional empty override. check_values() in fields/sweep.cpp then
     // counts more overrides than paths and reports the value.
     if (parts.size() > axis.paths.size()) overrides.emplace_back();
     return overrides;
