@@ -5,6 +5,7 @@
 // vehicle types of SUMO, vehicles that enter between two intersections, and runs on several threads.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <ostream>
 #include <string>
@@ -18,8 +19,15 @@ namespace {
 
 using namespace reference_engine;
 
-// Compares both engines in the plans that `draw` returns. In at most one of 20 scenarios, rounding may decide. In fact
-// it decides in one of 60 scenarios of full dynamics, and in one of 150 of the mesoscale mode.
+// The largest number of scenarios in which rounding may decide: one of 20, twice the standard deviation of that number,
+// and one. Rounding decides in 14 of 400 scenarios of full dynamics with lane changes, in one of 60 of the others, and
+// in one of 150 of the mesoscale mode.
+int most_decided_by_rounding(int plans) {
+    const double mean = plans / 20.0;
+    return 1 + static_cast<int>(mean + 2.0 * std::sqrt(mean));
+}
+
+// Compares both engines in the plans that `draw` returns.
 template <class Draw>
 Situations compare_in_random_plans(int plans, const Tolerance& tolerance, Draw draw) {
     Situations situations;
@@ -38,7 +46,7 @@ Situations compare_in_random_plans(int plans, const Tolerance& tolerance, Draw d
         ADD_FAILURE() << "scenario " << k << ": " << shrunk({plan, *comparison.difference}, tolerance).text();
         return situations;
     }
-    EXPECT_LE(decided_by_rounding, 1 + plans / 20);
+    EXPECT_LE(decided_by_rounding, most_decided_by_rounding(plans));
     EXPECT_LE(uncovered, 1 + plans / 20);
     return situations;
 }
