@@ -166,7 +166,7 @@ void check_files(const CompareCliOptions& options, const Scenario& scenario, con
     for (int k = 0; k < options.repetitions; ++k) {
         files.add_outputs(folder / fmt::format("seed_{}", scenario.seed + static_cast<std::uint64_t>(k)),
                           {"vehicles.rou.xml", "lights.add.xml", "detectors.add.xml", "run.sumocfg", "trips.out.xml",
-                           "summary.out.xml", "detectors.out.xml"},
+                           "summary.out.xml", "detectors.out.xml", "loops.out.xml"},
                           "a file for SUMO in the folder of --output");
     }
     files.add_outputs(folder, {"comparison.csv", "stop_lines.csv"}, "a result in the folder of --output");

@@ -11,7 +11,7 @@ struct Detector {
         zone,    // on the border of a zone, a part of the network in which traffic is measured
         exit,    // at the start of an exit lane, just after an intersection
         middle,  // in the middle of a lane between two intersections
-        loop,    // induction loop of an imported network; it has a name
+        loop,    // induction loop with a name
         signal   // upstream of a stop line, for the controller of the signal
     };
     int lane = -1;  // -1: no position on a lane; the detector records the starts or ends of trips

@@ -48,19 +48,17 @@ void add_rules(const Scenario& scenario, Model& model) {
 }
 
 void add_loops(const Scenario& scenario, Model& model) {
-    for (const SumoLoopPlace& loop : sumo_loops(scenario)) {
-        const int name = static_cast<int>(model.loop_names.size());
-        model.detectors.push_back({loop.lane, loop.position_m, Detector::Kind::loop, -1, false, name});
-        model.loop_names.push_back(loop.name);
-    }
+    const auto add = [&](int lane, double position_m, const std::string& name) {
+        const int index = static_cast<int>(model.loop_names.size());
+        model.detectors.push_back({lane, position_m, Detector::Kind::loop, -1, false, index});
+        model.loop_names.push_back(name);
+    };
+    for (const SumoLoopPlace& loop : sumo_loops(scenario)) add(loop.lane, loop.position_m, loop.name);
+    const std::vector<Lane>& lanes = model.graph.lanes;
     for (const LoopSettings& loop : scenario.measure.loops) {
-        const std::vector<Lane>& lanes = model.graph.lanes;
         const auto lane =
             std::find_if(lanes.begin(), lanes.end(), [&](const Lane& one) { return one.name == loop.lane; });
-        const int name = static_cast<int>(model.loop_names.size());
-        model.detectors.push_back({static_cast<int>(lane - lanes.begin()), loop_position_m(loop, *lane),
-                                   Detector::Kind::loop, -1, false, name});
-        model.loop_names.push_back(loop.name);
+        add(static_cast<int>(lane - lanes.begin()), loop_position_m(loop, *lane), loop.name);
     }
 }
 

@@ -208,14 +208,24 @@ void write_lights(const std::filesystem::path& file, const Model& model, const P
     xml.finish();
 }
 
-// Writes an induction loop for each stop line.
+// Writes an induction loop for each stop line, and the induction loops of the scenario.
 void write_detectors(const std::filesystem::path& file, const Model& model, const PlainNetwork& network) {
+    constexpr double kPeriod_s = 60.0;  // default of --e1-interval
     XmlFile xml(file, "additional", "additional_file.xsd");
     for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
         if (model.graph.lanes[at(lane)].signal_group < 0) continue;
         const std::string id = escape_xml(network.lane_id(lane));
         xml.add("    <instantInductionLoop id=\"{} stop_line\" lane=\"{}\" pos=\"-0.1\" file=\"detectors.out.xml\"/>\n",
                 id, id);
+    }
+    for (const Detector& detector : model.detectors) {
+        if (detector.kind != Detector::Kind::loop) continue;
+        const EdgePart& part = network.part_at(detector.lane, detector.position_m);
+        xml.add(
+            "    <inductionLoop id=\"{}\" lane=\"{}\" pos=\"{:.3f}\" friendlyPos=\"true\" period=\"{:.0f}\" "
+            "file=\"loops.out.xml\"/>\n",
+            escape_xml(model.loop_names[at(detector.loop)]), escape_xml(network.lane_id(part)),
+            detector.position_m - part.from_m, kPeriod_s);
     }
     xml.finish();
 }

@@ -62,6 +62,25 @@ TEST(Export, TranslatesTheTrafficRules) {
     EXPECT_NE(both.find("<ignore-junction-blocker value=\"30\"/>"), std::string::npos) << both;
 }
 
+// Induction loops keep their name and place. An approach with pockets becomes two edges, and the position counts from the
+// start of its edge.
+TEST(Export, WritesTheLoopsOfTheScenario) {
+    const TemporaryFolder folder;
+    const std::string lane = "koenigin_elisabeth_str_west_in_1";
+    const Scenario scenario =
+        load_scenario(STOPLINE_SOURCE_DIR "/scenarios/berlin.yaml",
+                      {"fidelity=meso", "duration=30 s", "network.streets=three_lanes_pockets", "measure.window=1 s",
+                       "measure.loops=[{name: far, lane: " + lane + ", position: 10 m}, {name: near, lane: " + lane +
+                           ", position: -10 m}]"});
+    export_to_sumo(scenario, 0, folder.path(), {});
+    const std::string detectors = read_file(folder.path() / "detectors.add.xml");
+    const auto has = [&](const std::string& text) { return detectors.find(text) != std::string::npos; };
+    EXPECT_TRUE(has("<inductionLoop id=\"far\" lane=\"koenigin_elisabeth_str_west_in.1_2\" pos=\"10.000\""))
+        << detectors;
+    EXPECT_TRUE(has("<inductionLoop id=\"near\" lane=\"koenigin_elisabeth_str_west_in_2\" pos=\"50.000\""))
+        << detectors;
+}
+
 TEST(Export, LeavesNothingIfInterrupted) {
     const TemporaryFolder folder;
     const auto stop = [](double share) { return share < 0.3; };
