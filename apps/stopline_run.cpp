@@ -65,7 +65,7 @@ struct RunCliOptions {
     bool trajectories = false;
     std::string trajectories_file = kTrajectoriesName;  // relative to the results folder
     bool no_figures = false;
-    std::optional<std::string> describe;  // text in the paths of the listed fields; empty: all fields
+    std::optional<std::string> describe;  // lists the fields whose path contains this text; empty: all fields
     bool describe_markdown = false;
     bool describe_columns = false;
     bool schema = false;

@@ -61,7 +61,8 @@ public:
     // Adds an option for a seed, which is a whole number.
     Option add(const std::string& names, std::optional<std::uint64_t>& value, const std::string& help);
     Option add(const std::string& names, std::vector<std::string>& values, const std::string& help);
-    // Adds an option that the user can give with or without a text. `value` is empty text if the user gives none.
+    // Adds an option that the user can give with or without a text. Without a text, `value`
+    // becomes empty text. Without the option, it stays unset.
     Option add_optional(const std::string& names, std::optional<std::string>& value, const std::string& help);
     // Adds an option without a value. `value` becomes true if the user gives the option.
     Option add_flag(const std::string& names, bool& value, const std::string& help);

@@ -16,14 +16,16 @@ std::string starvation_text(const Scenario& scenario, const std::vector<Populati
                 text += fmt::format("  {}: {} more (starvations.csv)\n", p.population, p.starvations.size() - kListed);
                 break;
             }
-            text += fmt::format("  {}: vehicle {} on {} waits from {:.0f} to {:.0f} s ({})\n", p.population, s.vehicle,
-                                lanes.at(static_cast<std::size_t>(s.lane)), s.from_s, s.to_s,
+            text += fmt::format("  {}: vehicle {} on {} is stopped from {:.0f} to {:.0f} s ({})\n", p.population,
+                                s.vehicle, lanes.at(static_cast<std::size_t>(s.lane)), s.from_s, s.to_s,
                                 kDelayCauseNames[static_cast<std::size_t>(s.cause)]);
         }
     }
-    const std::string limit = fmt::format("{:g} s (measure.starvation)", scenario.measure.starvation_s);
-    if (text.empty()) return "No movement starves: no first vehicle of a queue waits for " + limit + ".\n";
-    return "STARVATION: the first vehicle of a queue waits for " + limit + " although nothing blocks its way.\n" + text;
+    const std::string limit =
+        fmt::format("{:g} s (measure.starvation) and two signal cycles", scenario.measure.starvation_s);
+    if (text.empty()) return "No movement starves: no queue with a free way ahead is stopped for " + limit + ".\n";
+    return "STARVATION: the first vehicle of a queue is stopped for " + limit + ", although nothing blocks its way.\n" +
+           text;
 }
 
 }  // namespace stopline

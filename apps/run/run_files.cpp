@@ -33,8 +33,9 @@ double parse_time_s(const char* option, const std::string& text) {
 double parse_interval_s(const char* option, const std::string& text, const Scenario& scenario, bool is_used) {
     const double time_s = parse_time_s(option, text);
     if (!is_used) return time_s;
+    if (time_s <= 0.0) throw InputError(fmt::format("{}: value '{}' must be above 0 s", option, text));
     const double steps = time_s / scenario.tick_s();
-    if (steps < 0.5 || std::abs(steps - std::round(steps)) > 1e-6) {
+    if (std::abs(steps - std::round(steps)) > 1e-6) {
         throw InputError(fmt::format("{}: '{}' is not a whole number of steps of {}; give a multiple of it", option,
                                      text, short_text(scenario.tick_s(), unit("ms"))));
     }
@@ -127,7 +128,7 @@ void add_run_files_options(Options& app, RunFilesOptions& options) {
     file("--tripinfo", options.tripinfo, "Write finished trips as SUMO tripinfo (XML)");
     file("--e1", options.loops, "Write the counts of the detectors as SUMO induction loops (XML)");
     time("--e1-interval", options.loop_interval, {"--e1"}, "With --e1: counting interval (default: 60 s)");
-    file("--greens", options.greens, "Write start and end of each green of all signals (CSV)");
+    file("--greens", options.greens, "Write start and end of every green of each signal group (CSV)");
 }
 
 RunFiles::RunFiles(const RunFilesOptions& options, const Scenario& scenario, const std::string& command)

@@ -8,7 +8,7 @@ namespace stopline {
 
 inline constexpr std::uint64_t kEmptyTextHash = 0xcbf29ce484222325U;
 
-// Returns the hash after one more part: a character of the text, or the hash of a further text.
+// Returns `hash` extended by one character, or by the hash of another text.
 constexpr std::uint64_t extended_hash(std::uint64_t hash, std::uint64_t part) { return (hash ^ part) * 0x100000001b3U; }
 constexpr std::uint64_t extended_hash(std::uint64_t hash, char character) {
     return extended_hash(hash, std::uint64_t{static_cast<unsigned char>(character)});

@@ -137,9 +137,10 @@ STOPLINE_INLINE R stop_acceleration(const DriverTablesOf<Number>& d, const R& sp
 }
 
 // Returns the acceleration for a stop at a line, also if the vehicle learns of the stop too late to follow the curve of
-// stop_acceleration(). It then brakes at least with the constant deceleration v^2 / (2 distance) that is needed, and at
-// most with the one that is needed if it brakes only after the time kBrakingReaction_s. A vehicle far above the curve
-// thus brakes evenly, and not hard at first and gently afterwards.
+// stop_acceleration(). It then brakes at least with v^2 / (2 distance), the constant deceleration that stops it at the
+// line. The braking is limited to the constant deceleration that stops the vehicle if it drives on for
+// kBrakingReaction_s first, or to `stop.deceleration` if that is higher. This limit keeps late braking nearly constant.
+// The curve alone would demand hard braking first and gentle braking later.
 inline double stop_at_line_acceleration(const DriverTables& d, double speed_mps, double distance_m) {
     const auto constant_mps2 = [=](double room_m) { return 0.5 * square(speed_mps) / max_of(room_m, 0.1); };
     const double needed_mps2 = constant_mps2(distance_m);

@@ -3,10 +3,10 @@
 // on. The start-up lost time is the sum of (headway - saturation headway) over the first four vehicles. The headway of
 // the first vehicle counts from the start of green.
 //
-// Only vehicles that have stopped in the queue count. The queue of a green ends before the first vehicle that has not
-// stopped, because later vehicles arrive at the rate of the demand. A green is saturated if its queue has five vehicles
-// or more. Each lane is measured separately. In a mean over all lanes, the values at later positions would come only
-// from the lanes with long queues, which can be faster than the other lanes.
+// Only vehicles that were queued (slower than kQueuedSpeed_mps) before the stop line count. The queue of a green ends
+// before the first other vehicle, because later vehicles arrive at the rate of the demand. A green is saturated if its
+// queue has five vehicles or more. Each lane is measured separately. In a mean over all lanes, the values at later
+// positions would come only from the lanes with long queues, which can be faster than the other lanes.
 #pragma once
 
 #include <functional>
@@ -41,7 +41,7 @@ struct Discharge {
 
 // Returns the start, in s, of the latest green of a signal group at `time_s`; below 0 if no green has begun.
 using LatestGreenStart = std::function<double(int signal_group, double time_s)>;
-// Returns true if the vehicle has stopped in the queue before the stop line that it passes.
+// Returns true if the vehicle was queued before the stop line that it passes.
 using HasQueued = std::function<bool(int vehicle)>;
 
 // Measures all stop lines. A vehicle belongs to the latest green that began before it passed its stop line. Headways of

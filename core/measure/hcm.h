@@ -1,20 +1,21 @@
 // The report of a signal by the Highway Capacity Manual (HCM, 6th edition, chapters 19 and 31): saturation flow,
-// capacity, control delay, stops, back of queue and level of service of each lane. Each measured value comes with the
-// value of the HCM formula.
+// capacity, control delay, stops, back of queue and level of service of each lane. Measured delays and queues come with
+// the values of the HCM formulas.
 //
 // Control delay is the travel time minus the time at free-flow speed. It begins when a vehicle enters the lane of the
 // stop line, or when it slows for this signal if it still accelerates from the last one. It ends when the vehicle
 // reaches kFreeFlowShare of its free-flow speed beyond the stop line. The free-flow speed on a connection is the limit
 // of the connection, so that slow driving inside a turn is no delay.
 //
-// All values of a lane cover whole cycles of its signal within the window. The controller's cycle counts, so all lanes
-// of a signal have the same number of cycles, give or take one:
+// All values of a lane cover whole cycles of its signal within the window. The cycles of a lane follow those of
+// the controller. So the lanes of a signal have almost the same number of cycles. They differ only by the cycles that
+// cross an end of the window:
 //   - A green belongs to the cycle of the signal in which it ends. The cycle of the lane lasts until the red after its
 //     last green begins.
 //   - A controller can skip the phase of a lane. The lane then has a cycle without green, which lasts until the next
 //     cycle of the signal begins.
 //   - A green can last through a whole cycle of the signal. The cycle of the lane then ends with that of the signal.
-// Without a controller's cycle, as with an external controller, each green with the red before it is a cycle.
+// An external controller has no cycle. A red and the green after it then count as one cycle.
 #pragma once
 
 #include <cstdint>
@@ -37,9 +38,10 @@ struct HcmPassage {
     bool has_queued = false;
 };
 
-// A red of a lane and the green after it, from start of red to start of red. A cycle of the signal can have several
-// intervals, such as a protected and a permissive green of a left turn. An interval without green is a cycle in which
-// the controller skips the lane.
+// Part of the record of a lane: a red and the green after it, up to the next red. A cycle of the signal can have
+// several intervals, such as a protected and a permissive green of a left turn. An interval without green is a cycle in
+// which the controller skips the lane. If the cycle of the signal ends within a green, the interval ends there. The
+// next one then begins with the rest of this green.
 struct HcmInterval {
     double from_s = 0.0;
     double to_s = 0.0;
@@ -92,7 +94,7 @@ struct HcmRow {
     double cycle_s = 0.0;
     double green_s = 0.0;  // sum over the greens of a cycle
     double greens_per_cycle = 0.0;
-    bool has_several_greens = false;  // in one of the cycles or more
+    bool has_several_greens = false;  // in at least one cycle
     LaneDischarge discharge;
     int used_greens = 0;                 // greens for which the queue lasts
     double saturation_flow_veh_h = 0.0;  // fewer than kMinGreens saturated greens: mean of all lanes

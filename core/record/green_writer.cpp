@@ -34,9 +34,10 @@ public:
         file_.write(kGreensHeader);
         for (int group = 0; group < model.signals.groups(); ++group) {
             const SignalPlans::Place& place = model.signals.place_of(group);
-            groups_.push_back(
-                {fmt::format("{},{},{},{}", population, place.signal, place.index, lanes_of(model.graph, group)),
-                 place.is_known});
+            const std::string lanes = lanes_of(model.graph, group);
+            const bool is_signal = !lanes.empty() && !model.signals.never_changes(group);
+            groups_.push_back({fmt::format("{},{},{},{}", population, place.signal, place.index, lanes),
+                               place.is_known && is_signal});
         }
     }
 

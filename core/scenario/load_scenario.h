@@ -58,12 +58,14 @@ std::string meso_yaml(const MesoSettings& meso, const std::string& comment);
 // Returns the scenario as YAML text with every field in full precision, including those of the vehicle, the driver and
 // the policies. Loading the text gives the same scenario.
 std::string canonical_text(const Scenario& scenario);
-// Returns the 64-bit FNV-1a hash of canonical_text(), combined with the hash of imported SUMO files.
+// Returns the 64-bit FNV-1a hash of canonical_text(), combined with the hashes of imported SUMO files and of the
+// traffic file.
 std::uint64_t scenario_hash(const Scenario& scenario);
 
 // Returns a list of the fields of a scenario file for a terminal: name, unit, default, range and meaning. Lists the
-// fields whose path contains `text`, such as green, signal.green or phases[].green; all of them for an empty text. An
-// index or a name in brackets stands for all entries of a list. Throws InputError if there is no such field.
+// fields whose path contains `text`, such as green, signal.green or phases[].green; all of them for an empty text. Text
+// inside brackets is ignored: policies[CTG-Ref] finds the same fields as policies[]. Throws InputError if there is no
+// such field.
 std::string describe_fields(const std::string& text = {});
 
 // Returns the text of scenarios/FIELDS.md, which lists all fields of scenario and sweep files.

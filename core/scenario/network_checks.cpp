@@ -8,6 +8,7 @@
 
 #include "base/nearest_name.h"
 #include "base/simd/arithmetic.h"
+#include "network/generators/street_layout.h"
 #include "scenario/approach_names.h"
 #include "scenario/fleets.h"
 #include "scenario/kinds/network_kind.h"
@@ -63,6 +64,17 @@ std::string stopping_text(const Scenario& scenario, double speed_mps) {
            " (driver.stop.decision_deceleration)";
 }
 
+// Returns the shortest road between two intersections on which a vehicle has room and can stop, m.
+double min_link_m(const Scenario& scenario, double speed_mps) {
+    return std::max(queue_space_m(scenario), stopping_m(scenario, speed_mps));
+}
+
+// Explains min_link_m() in messages.
+std::string link_needs_text(const Scenario& scenario, double speed_mps) {
+    return "as a vehicle with its gap needs " + metres(queue_space_m(scenario)) + ", and " +
+           metres(stopping_m(scenario, speed_mps)) + " " + stopping_text(scenario, speed_mps);
+}
+
 // Returns the longest distance of all drivers between a vehicle at rest and the stop line, m.
 double longest_stop_margin_m(const Scenario& scenario) {
     double longest_m = 0.0;
@@ -91,20 +103,36 @@ void check_queue(const Scenario& scenario, Checker& check) {
 void check_grid_links(const Scenario& scenario, Checker& check) {
     const GridSettings& grid = scenario.network.grid;
     const IntersectionSettings& layout = scenario.network.intersection;
-    const double min_length_m = std::max(queue_space_m(scenario), stopping_m(scenario, layout.speed_limit_mps));
+    const double min_length_m = min_link_m(scenario, layout.speed_limit_mps);
     const auto check_spacing = [&](const std::string& field, double spacing_m) {
         const double min_spacing_m = 2.0 * layout.radius_m + min_length_m;
         if (spacing_m >= min_spacing_m - kRounding_m) return;
         check.error("network.grid." + field,
                     "value " + metres(spacing_m) + " leaves " + metres(spacing_m - 2.0 * layout.radius_m) +
                         " of road between intersections of network.intersection.radius = " + metres(layout.radius_m) +
-                        ": at least " + metres(min_spacing_m) + " with this radius, as a vehicle with its gap needs " +
-                        metres(queue_space_m(scenario)) + ", and " +
-                        metres(stopping_m(scenario, layout.speed_limit_mps)) + " " +
-                        stopping_text(scenario, layout.speed_limit_mps));
+                        ": at least " + metres(min_spacing_m) + " with this radius, " +
+                        link_needs_text(scenario, layout.speed_limit_mps));
     };
     if (grid.columns > 1) check_spacing("column_spacing", grid.column_spacing_m);
     if (grid.rows > 1) check_spacing("row_spacing", grid.row_spacing_m);
+}
+
+void check_street_links(const Scenario& scenario, Checker& check) {
+    const StreetLayout layout(scenario.network.streets);
+    for (int n = 0; n < layout.nodes(); ++n) {
+        for (int side = 0; side < static_cast<int>(kSides.size()); ++side) {
+            const StreetLeg* const leg = layout.leg(n, side);
+            const int other = layout.neighbour(n, side);
+            if (leg == nullptr || leg->lanes.empty() || other < 0) continue;
+            const double length_m = layout.length_m(n, side);
+            const double min_length_m = min_link_m(scenario, leg->speed_limit_mps);
+            if (length_m >= min_length_m - kRounding_m) continue;
+            check.error("network.streets.intersections[" + layout.node(n).name + "].x",
+                        "leaves " + metres(length_m) + " of road from '" + layout.node(other).name +
+                            "' to the stop line: at least " + metres(min_length_m) + ", " +
+                            link_needs_text(scenario, leg->speed_limit_mps) + "; or give this leg a lower speed_limit");
+        }
+    }
 }
 
 void check_pockets(const Scenario& scenario, Checker& check) {
@@ -191,6 +219,20 @@ void check_measured_area(const Scenario& scenario, Checker& check) {
                                            ", the value of " + shortest_field);
 }
 
+namespace {
+
+// Returns true if --e1 gives this id to a detector of the network itself, such as west_in_0_stop_line.
+bool is_detector_id(const std::string& id, const LaneGraph& graph) {
+    return std::any_of(graph.lanes.begin(), graph.lanes.end(), [&](const Lane& lane) {
+        if (!id.starts_with(lane.name + "_")) return false;
+        const std::string_view kind = std::string_view(id).substr(lane.name.size() + 1);
+        return kind == "stop_line" || kind == "exit" || kind == "middle" || kind.starts_with("zone") ||
+               kind.starts_with("signal");
+    });
+}
+
+}  // namespace
+
 void check_loops(const Scenario& scenario, Checker& check) {
     constexpr std::size_t kListedMax = 12;
     if (scenario.measure.loops.empty() || network_kind(scenario.network).has_trips) return;
@@ -201,6 +243,8 @@ void check_loops(const Scenario& scenario, Checker& check) {
     }
     for (const LoopSettings& loop : scenario.measure.loops) {
         const std::string field = "measure.loops[" + loop.name + "].";
+        if (is_detector_id(loop.name, graph))
+            check.error(field + "name", "value '" + loop.name + "' is the id of a detector that --e1 lists anyway");
         const auto lane = std::find_if(graph.lanes.begin(), graph.lanes.end(),
                                        [&](const Lane& one) { return one.origin < 0 && one.name == loop.lane; });
         if (lane == graph.lanes.end()) {
@@ -211,9 +255,10 @@ void check_loops(const Scenario& scenario, Checker& check) {
         const double from_start_m = loop_position_m(loop, *lane);
         const double end_m = end_of_lane_m(*lane);
         if (from_start_m >= 0.0 && from_start_m <= end_m) continue;
-        check.error(field + "position", "value " + metres(loop.position_m) + " is not on the lane " + loop.lane +
-                                            ": it is " + metres(end_m) + " long" +
-                                            (lane->signal_group >= 0 ? " up to the stop line" : ""));
+        check.error(field + "position",
+                    "value " + metres(loop.position_m) + " is not on the lane " + loop.lane + ": allowed are -" +
+                        metres(end_m) + " to " + metres(end_m) +
+                        (lane->signal_group >= 0 ? ", the length up to the stop line" : ", its length"));
     }
 }
 

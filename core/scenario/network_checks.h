@@ -13,6 +13,8 @@ void check_queue(const Scenario& scenario, Checker& check);
 // Checks that the road between two intersections of a grid has room for a vehicle and is long enough for a vehicle to
 // stop.
 void check_grid_links(const Scenario& scenario, Checker& check);
+// Checks the same for streets.
+void check_street_links(const Scenario& scenario, Checker& check);
 // Checks that each turn pocket has room for a vehicle.
 void check_pockets(const Scenario& scenario, Checker& check);
 // Checks that a vehicle that enters the network can stop before the stop line of its entry lane.

@@ -47,6 +47,8 @@ public:
     std::int64_t next_change_tick(std::int64_t tick) const;
     std::int64_t cycle_ticks() const { return cycle_; }
     std::int64_t first_tick() const { return offset_; }
+    // Returns true if the light is always the same.
+    bool never_changes() const { return stages_.size() == 1 && repeats_; }
 
 private:
     struct StageStart {

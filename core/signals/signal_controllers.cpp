@@ -78,6 +78,10 @@ void SignalPlans::add(SignalPlan plan) {
     plans_.push_back(std::move(plan));
 }
 
+bool SignalPlans::never_changes(int group) const {
+    return plan_of(group).controller->follows_programme && programme(group).never_changes();
+}
+
 bool SignalPlans::is_complete() const {
     return std::all_of(places_.begin(), places_.end(), [](const Place& place) { return place.is_known; });
 }

@@ -67,6 +67,9 @@ public:
     const GroupProgramme& programme(int group) const {
         return plan_of(group).programmes[places_[static_cast<std::size_t>(group)].index];
     }
+    // Returns true if the light of a signal group is always the same. In imported networks, the lanes without a signal
+    // belong to a group with constant green.
+    bool never_changes(int group) const;
 
 private:
     std::vector<SignalPlan> plans_;

@@ -69,7 +69,7 @@ std::vector<Outcome> outcomes_of(const PopulationResults& results) {
 void note_starvation(const std::vector<PopulationStarvations>& populations) {
     for (const PopulationStarvations& population : populations) {
         for (const Starvation& s : population.starvations)
-            fmt::print("starved\tvehicle {} waits from {} s to {} s\n", s.vehicle, s.from_s, s.to_s);
+            fmt::print("starved\tvehicle {} is stopped from {} s to {} s\n", s.vehicle, s.from_s, s.to_s);
     }
 }
 

@@ -11,8 +11,8 @@
 // The formula assumes that left-turning vehicles do not hinder opposing ones. This holds with a critical gap of 7 s.
 // With the default of 5 s opposing vehicles brake, because one left-turning vehicle needs a headway of about 6 s. The
 // opposing vehicle at the end of a gap then arrives up to 2 s later. This makes the gap longer, and raises the capacity
-// in dense opposing traffic. Therefore compare() also counts the vehicles that fit into the headways that the opposing
-// vehicles have where they reach the conflict areas.
+// in dense opposing traffic. Therefore compare() also measures the headways of the opposing vehicles at the conflict
+// areas, and counts the left-turning vehicles that fit into them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -339,7 +339,7 @@ TEST(SlowPermissiveLeft, HasTheCapacityOfTheHeadways) {
     compare({200.0, 400.0, 600.0, 800.0, 1000.0, 1200.0}, 3900.0, 40);
 }
 
-TEST(SlowPermissiveLeft, HasTheCapacityOfTheFormulaIfNobodyBrakes) {
+TEST(SlowPermissiveLeft, HasTheCapacityOfTheFormulaWithoutBraking) {
     compare_without_braking({200.0, 600.0, 1000.0, 1200.0}, 3900.0, 40);
 }
 

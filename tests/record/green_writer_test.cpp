@@ -14,6 +14,7 @@
 #include "scenario/build_model.h"
 #include "scenario/scenario_text.h"
 #include "sim/step/simulation.h"
+#include "support/sumo_files.h"
 
 namespace stopline {
 namespace {
@@ -31,11 +32,8 @@ struct Green {
 
 double number(const std::string& cell) { return cell.empty() ? -1000.0 : std::stod(cell); }
 
-// Runs the scenario phases.yaml, and returns the greens of each signal group.
-std::map<std::string, std::vector<Green>> greens_of(const std::vector<std::string>& settings) {
-    std::vector<std::string> all{"populations=[CTG-Ref]"};
-    all.insert(all.end(), settings.begin(), settings.end());
-    const Scenario scenario = load_scenario(STOPLINE_SOURCE_DIR "/scenarios/phases.yaml", all);
+// Runs a scenario, and returns the greens of each signal group. Expects that all belong to signal 0.
+std::map<std::string, std::vector<Green>> greens_in(const Scenario& scenario) {
     const std::string file = ::testing::TempDir() + "greens.csv";
     const Model model = build_model(scenario, 0);
     const auto writer = make_green_writer(file, "CTG-Ref", model);
@@ -56,6 +54,25 @@ std::map<std::string, std::vector<Green>> greens_of(const std::vector<std::strin
             {row.at(3), number(row.at(4)), number(row.at(5)), number(row.at(6)), number(row.at(7))});
     }
     return greens;
+}
+
+// The same for the scenario phases.yaml.
+std::map<std::string, std::vector<Green>> greens_of(const std::vector<std::string>& settings) {
+    std::vector<std::string> all{"populations=[CTG-Ref]"};
+    all.insert(all.end(), settings.begin(), settings.end());
+    return greens_in(load_scenario(STOPLINE_SOURCE_DIR "/scenarios/phases.yaml", all));
+}
+
+// Lanes without a signal belong to a group with constant green. This group is no signal.
+TEST(GreenWriter, LeavesOutLanesWithoutSignal) {
+    const testing::SumoFiles files;
+    files.write("my.net.xml", testing::opposing_lefts_net());
+    files.write("my.rou.xml",
+                R"(<routes><vType id="x"/><trip id="w" type="x" depart="30" from="w" to="to_n"/></routes>)");
+    const Scenario scenario = parse_scenario(
+        "duration: 400 s\nnetwork: {kind: sumo, net: ./my.net.xml, routes: [./my.rou.xml]}\npopulations: [CTG-Ref]\n",
+        "my.yaml", {}, files.folder());
+    EXPECT_TRUE(greens_in(scenario).empty());
 }
 
 TEST(GreenWriter, ListsTheGreensOfTheProgramme) {

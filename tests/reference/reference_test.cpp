@@ -19,9 +19,8 @@ namespace {
 
 using namespace reference_engine;
 
-// The largest number of scenarios in which rounding may decide: one of 20, twice the standard deviation of that number,
-// and one. Rounding decides in 14 of 400 scenarios of full dynamics with lane changes, in one of 60 of the others, and
-// in one of 150 of the mesoscale mode.
+// Returns in how many of `plans` scenarios rounding may decide: one of 20, plus two standard deviations of that number,
+// plus one.
 int most_decided_by_rounding(int plans) {
     const double mean = plans / 20.0;
     return 1 + static_cast<int>(mean + 2.0 * std::sqrt(mean));

@@ -67,10 +67,15 @@ TEST(Checks, LoopsLieOnLanes) {
     EXPECT_TRUE(contains(error("{name: a, lane: west_on_0, position: 1 m}"),
                          "field 'measure.loops[a].lane': no lane has the name 'west_on_0'; did you mean 'west_in_0'?"));
     for (const std::string far : {"-1000 m", "1000 m"}) {
-        EXPECT_TRUE(contains(error("{name: a, lane: west_in_0, position: " + far + "}"),
-                             "field 'measure.loops[a].position': value " + far +
-                                 " is not on the lane west_in_0: it is 200 m long up to the stop line"));
+        EXPECT_TRUE(
+            contains(error("{name: a, lane: west_in_0, position: " + far + "}"),
+                     "field 'measure.loops[a].position': value " + far +
+                         " is not on the lane west_in_0: allowed are -200 m to 200 m, the length up to the stop line"));
     }
+    EXPECT_TRUE(contains(error("{name: west_in_0_stop_line, lane: west_in_0, position: 1 m}"),
+                         "field 'measure.loops[west_in_0_stop_line].name': value 'west_in_0_stop_line' is the id of a "
+                         "detector that --e1 lists anyway"));
+    EXPECT_EQ(error("{name: west_in_0_near, lane: west_in_0, position: 1 m}"), "");
 }
 
 TEST(Checks, OwnPoliciesReplacePoliciesOfThePaper) {
@@ -164,7 +169,8 @@ TEST(Checks, SignalFitsItsCycleAndTheRun) {
     EXPECT_TRUE(
         contains(error_with({"signal.cycle=60 s"}), "a cycle of 60 s is shorter than green + yellow + all red = 68 s"));
     EXPECT_EQ(error_with({"signal.cycle=68 s"}), "");
-    EXPECT_TRUE(contains(error_with({"signal.first_green=200 s"}), "lies after the end of the run at 200 s"));
+    EXPECT_TRUE(
+        contains(error_with({"signal.first_green=200 s"}), "value 200 s must be below the duration of the run, 200 s"));
     EXPECT_TRUE(contains(error_with({"measure.green=[61 s]"}), "lies after the end of the green time of 60 s"));
     EXPECT_TRUE(contains(error_with({"signal.first_green=180 s", "measure.green=[30 s]"}),
                          "the run ends earlier, at duration = 200 s"));

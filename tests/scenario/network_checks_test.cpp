@@ -38,6 +38,20 @@ TEST(GridLinks, AreLongEnoughForAVehicleAndForStopping) {
     EXPECT_EQ(error_in_grid({"network.grid.rows=1", "network.grid.row_spacing=50 m"}), "");
 }
 
+TEST(StreetLinks, AreLongEnoughForAVehicleAndForStopping) {
+    const auto error = [](const std::string& limit) {
+        return error_of("network: {kind: streets, streets: three_lanes}\n",
+                        {"network.streets.intersections[pedestrian_lights].legs[0].speed_limit=" + limit});
+    };
+    EXPECT_EQ(error("50 km/h"), "");
+    EXPECT_TRUE(
+        contains(error("150 km/h"),
+                 "field 'network.streets.intersections[pedestrian_lights].x': leaves 135 m of road from "
+                 "'krumme_str' to the stop line: at least 259.3 m, as a vehicle with its gap needs 11.15 m, and "
+                 "259.3 m to stop from 150 km/h at 3.5 m/s2 (driver.stop.decision_deceleration); or give this "
+                 "leg a lower speed_limit"));
+}
+
 TEST(Entries, VehiclesCanStopBeforeTheLine) {
     const std::vector<std::string> fast{"network.intersection.speed_limit=150 km/h", "demand.entry_speed=150 km/h"};
     EXPECT_TRUE(

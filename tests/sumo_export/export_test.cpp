@@ -62,8 +62,8 @@ TEST(Export, TranslatesTheTrafficRules) {
     EXPECT_NE(both.find("<ignore-junction-blocker value=\"30\"/>"), std::string::npos) << both;
 }
 
-// Induction loops keep their name and place. An approach with pockets becomes two edges, and the position counts from the
-// start of its edge.
+// Induction loops keep their name and place. An approach with pockets becomes two edges. The position counts from the
+// start of the edge.
 TEST(Export, WritesTheLoopsOfTheScenario) {
     const TemporaryFolder folder;
     const std::string lane = "koenigin_elisabeth_str_west_in_1";

@@ -77,13 +77,15 @@ class ShortApproaches : public ::testing::TestWithParam<const char*> {
 protected:
     static constexpr double kDuration_s = 600.0;
 
-    static Model model_of(const std::string& net, const std::string& flows, const std::string& length_m) {
+    static Model model_of(const std::string& net, const std::string& flows, const std::string& length_m,
+                          const std::string& population = "CTG-Ref") {
         const SumoFiles files;
         files.write("my.net.xml", net);
         files.write("my.rou.xml", "<routes>\n<vType id=\"x\" length=\"" + length_m + "\"/>\n" + flows + "</routes>\n");
         const std::string text = std::string("fidelity: ") + GetParam() +
                                  "\nduration: 600 s\nnetwork: {kind: sumo, net: ./my.net.xml, routes: [./my.rou.xml]}\n"
-                                 "populations: [CTG-Ref]\nmeasure: {window: 60 s}\n";
+                                 "populations: [" +
+                                 population + "]\nmeasure: {window: 60 s}\n";
         return build_model(parse_scenario(text, "my.yaml", {}, files.folder()), 0);
     }
 
@@ -114,13 +116,25 @@ TEST_P(ShortApproaches, VehicleStopsBeforeTheConflictAreaBehindAShortLane) {
 
 // K has a signal. The vehicles from w see it before they are on the lane of 0.2 m at its stop line.
 TEST_P(ShortApproaches, VehicleStopsAtARedSignalBehindAShortLane) {
-    const Model model = model_of(close_signal_net(), flow("w", "e", 300) + flow("c", "d", 300), "5");
+    for (const std::string population : {"CTG-Ref", "CDG"}) {
+        const Model model = model_of(close_signal_net(), flow("w", "e", 300) + flow("c", "d", 300), "5", population);
+        Simulation simulation(model);
+        simulation.run_until(kDuration_s);
+        const Violations& violations = simulation.state().records.violations;
+        EXPECT_TRUE(violations.none()) << population;
+        EXPECT_EQ(violations.forced_red_entries, 0) << population;
+        EXPECT_GE(simulation.state().records.exited, 85) << population;
+    }
+}
+
+// Vehicles depart on the lane of 0.2 m. Vehicles from w, which are on the lanes before it, can stop behind them.
+TEST_P(ShortApproaches, DepartureOnAShortLaneLeavesRoomForTheVehicleBehind) {
+    const std::string flows = flow("w", "e", 300) + flow("s", "e", 120) + flow("c", "d", 200);
+    const Model model = model_of(close_junctions_net(), flows, "5");
     Simulation simulation(model);
     simulation.run_until(kDuration_s);
-    const Violations& violations = simulation.state().records.violations;
-    EXPECT_TRUE(violations.none());
-    EXPECT_EQ(violations.forced_red_entries, 0);
-    EXPECT_GE(simulation.state().records.exited, 85);
+    EXPECT_TRUE(simulation.state().records.violations.none());
+    EXPECT_GE(simulation.state().records.exited, 80);
 }
 
 // While a lorry waits at K, its rear is still inside J. The vehicles from a must wait until it has left.

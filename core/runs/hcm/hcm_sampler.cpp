@@ -172,7 +172,8 @@ void HcmSampler::note_lights(const State& state) {
     }
 }
 
-// Ends the interval of a lane at the start of a red, unless the interval has had no green.
+// Ends the interval of a lane at the start of a red. Does nothing if the interval has had no green. The first red of a
+// run begins the first interval.
 void HcmSampler::end_green_interval(const State& state, int record, double now_s) {
     const bool has_begun = open_[at(record)].has_begun;
     std::int64_t& cycle = lane_cycles_[at(record)].of_last_green;
@@ -181,7 +182,7 @@ void HcmSampler::end_green_interval(const State& state, int record, double now_s
     begin_interval(state, record, now_s, cycle);
 }
 
-// Ends the interval of each lane in whose last cycle no green has ended, when the next cycle of its signal begins.
+// Called when a signal may have begun a new cycle. Ends the interval of each lane in whose last cycle no green ended.
 void HcmSampler::note_cycles(const State& state) {
     for (int record = 0; record < static_cast<int>(records_.size()); ++record) {
         const int group = group_of(record);
@@ -225,7 +226,7 @@ void HcmSampler::begin_interval(const State& state, int record, double now_s, st
     open.interval.back_veh = residual;
 }
 
-// Returns the number of vehicles before the stop line that have stopped in the queue.
+// Returns the number of queued vehicles before the stop line.
 int HcmSampler::queued_before_line(const State& state, int record) const {
     const int lane = records_[at(record)].lane;
     const LaneBlock& block = state.blocks[at(lane)];

@@ -1,8 +1,8 @@
 // Counts the cycles of each signal in a run, for lanes that can have several greens in a cycle, or none. A controller
 // that skips phases has cycles of different lengths, and a lane then has fewer greens in some of them.
 //
-// A cycle begins when the controller comes back to an earlier phase of its sequence, begins the same phase again, or
-// begins with another programme. With rings, it begins when the rings come back to an earlier side of the barriers.
+// A cycle begins when the controller starts the same phase again, starts an earlier phase of its sequence, or changes
+// to another programme. With rings, it begins when the rings return to an earlier group of phases between barriers.
 #pragma once
 
 #include <cstddef>

@@ -41,12 +41,13 @@ void DeadlockSearch::observe(const State& state) {
         if (deadlock_->members.empty()) deadlock_->members = members_from(state, deadlock_->vehicle);
         return;
     }
-    // The waiting vehicles change with each delay watch only.
+    // Only the delay watch updates the list of stopped vehicles.
     if (state.tick % model_.rules.watch_ticks != 0) return;
     if (state.records.longest_in_junction_ticks >= watched_ticks_) watch_occupants(state);
 }
 
-// Notes the lawful waits of the vehicles inside, and records the deadlock of the vehicle whose time is the longest.
+// Records the latest lawful wait of each vehicle inside. Records a deadlock if a vehicle exceeds the limit; if several
+// do, the one with the longest time.
 void DeadlockSearch::watch_occupants(const State& state) {
     std::map<int, std::int64_t> last_lawful_tick;
     std::int64_t earliest_tick = state.tick - limit_ticks_ + 1;
@@ -92,8 +93,9 @@ std::vector<DeadlockMember> DeadlockSearch::members_from(const State& state, int
 
 std::string deadlock_text(const Deadlock& deadlock, const std::vector<std::string>& lanes) {
     const auto name = [&](int lane) { return lane < 0 ? std::string("an unknown lane") : lanes[at(lane)]; };
-    std::string text = fmt::format("vehicle {} has been inside the intersection on {} from {:.1f} s to {:.1f} s.\n",
-                                   deadlock.vehicle, name(deadlock.lane), deadlock.from_s, deadlock.to_s);
+    std::string text = fmt::format(
+        "vehicle {} on {} has neither left the intersection nor yielded to moving traffic from {:.1f} s to {:.1f} s.\n",
+        deadlock.vehicle, name(deadlock.lane), deadlock.from_s, deadlock.to_s);
     for (const DeadlockMember& member : deadlock.members) {
         const char* const cause = kDelayCauseNames[static_cast<std::size_t>(member.cause)];
         const std::string why = member.cause == DelayCause::none ? "" : fmt::format(" ({})", cause);

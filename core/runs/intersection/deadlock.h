@@ -1,10 +1,11 @@
 // Deadlocks of a single intersection: a vehicle stays inside the intersection for too long without a lawful wait. The
-// limit is the time of the slowest unobstructed crossing, plus two signal cycles, and plus kMinDeadlock_s at least. If
-// the controller reacts to traffic, the longest possible cycle counts. The time counts from the last lawful wait.
+// limit is the time of the slowest unobstructed crossing plus two signal cycles, or plus kMinDeadlock_s if this is
+// longer. If the controller reacts to traffic, the longest possible cycle counts. The time counts from the last lawful
+// wait.
 //
-// A lawful wait is a chain of waiting vehicles whose last vehicle yields to moving traffic, such as a left-turning
-// vehicle in a green that does not end. It can last without limit: the vehicle starves (Starvation in
-// sim/state/delay_log.h). A cycle of vehicles that wait for each other is no lawful wait.
+// A vehicle waits lawfully if it yields to moving traffic, or if it is in a chain of waiting vehicles whose last one
+// does. An example is a left-turning vehicle in a green that does not end. A lawful wait has no limit here. It counts
+// as starvation instead (Starvation in sim/state/delay_log.h). Vehicles that wait for each other do not wait lawfully.
 #pragma once
 
 #include <cstdint>
@@ -34,8 +35,8 @@ struct DeadlockMember {
 struct Deadlock {
     int vehicle = -1;     // id of the vehicle that stays too long
     int lane = -1;        // connection of this vehicle
-    double from_s = 0.0;  // time at which it entered the intersection, or of its last lawful wait
-    double to_s = 0.0;    // time at which this was found to be too long ago
+    double from_s = 0.0;  // entry into the intersection, or last lawful wait if that is later
+    double to_s = 0.0;    // time at which the limit was exceeded
     // A chain of waiting vehicles. The first one is `vehicle`, and each one waits for the next one. The last one waits
     // for no stopped vehicle, or for one that is in the chain already. Empty: `vehicle` has not stopped.
     std::vector<DeadlockMember> members = {};
@@ -58,7 +59,7 @@ private:
 
     const Model& model_;
     std::int64_t limit_ticks_;
-    std::int64_t watched_ticks_;                    // lawful waits are looked for in longer stays only
+    std::int64_t watched_ticks_;                    // shortest stay for which lawful waits are recorded
     std::map<int, std::int64_t> last_lawful_tick_;  // [vehicle] of the vehicles inside that have waited lawfully
     std::optional<Deadlock> deadlock_;
 };

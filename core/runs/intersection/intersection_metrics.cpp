@@ -109,8 +109,7 @@ MetricList<MeasuredIntersection> discharge_metrics() {
          .sweep_decimals = kLeftOut,
          .console = {.heading = "saturation",
                      .decimals = 0,
-                     .note =
-                         "flow from the fifth vehicle of a queue on; only vehicles that stopped in the queue count"}},
+                     .note = "flow from the fifth vehicle of a queue on; only queued vehicles count"}},
         {.column = "saturation_headway_s",
          .unit = "s",
          .extent = "window",

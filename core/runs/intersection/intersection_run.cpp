@@ -21,7 +21,7 @@ namespace stopline {
 namespace {
 
 // Samples values that cannot be computed from the recorded events of a run: the number of vehicles in the network, the
-// queues at the start of green, and the vehicles that have stopped in a queue.
+// queues at the start of green, and the vehicles that were queued.
 class QueueSampler {
 public:
     explicit QueueSampler(const Model& model, const TimeWindow& window)

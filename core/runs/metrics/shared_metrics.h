@@ -109,10 +109,10 @@ MetricList<Run> count_metrics(std::initializer_list<std::string_view> in_summary
          .value = [](const Run& run) { return run.counts().violations.lost_vehicles; }},
         {.column = "deadlocks",
          .extent = "run",
-         .meaning = "1 if a vehicle stays in the intersection longer than the slowest unobstructed crossing plus "
-                    "two cycles of the greatest possible length (at least 30 s), else 0; a violation. While the "
-                    "vehicle, or the last one of the vehicles that it waits for, yields to moving traffic, the time "
-                    "does not count",
+         .meaning = "1 if a vehicle stays in the intersection too long, else 0; a violation. The limit is the slowest "
+                    "unobstructed crossing plus two of the longest cycles, or plus 30 s if this is longer. The time "
+                    "starts again when the vehicle, or the last vehicle of the chain that it waits for, yields to "
+                    "moving traffic",
          .value = [](const Run& run) { return run.counts().violations.deadlocks; }},
         {.column = "updates",
          .extent = "run",

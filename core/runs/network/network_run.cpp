@@ -46,8 +46,8 @@ void add_inner_inlet_detectors(Model& model) {
     }
 }
 
-// Replaces the detectors of the network by detectors at the boundary of the measured area and at inlets inside it.
-// Keeps those at stop lines, those of signal controllers, and induction loops. The boundary lies on the entry
+// Removes all detectors except those at stop lines, those of signal controllers, and induction loops. Adds detectors at
+// the boundary of the measured area and at inlets inside it. The boundary lies on the entry
 // approaches and exit lanes of the network. Turn pockets wholly inside the area get no detector, because vehicles reach
 // them from the adjacent lane. An imported network gets trip detectors instead.
 void add_area_detectors(const Scenario& scenario, Model& model) {

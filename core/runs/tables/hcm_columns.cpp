@@ -9,9 +9,10 @@ std::vector<ColumnDoc> hcm_columns() {
         {"scope", "", "", "`lane`, `approach` or `intersection`. Columns without a meaning for the last two are empty"},
         {"name", "", "", "name of the lane or approach, or number of the intersection from 0"},
         {"cycles", "", "window",
-         "number of whole cycles of the signal that end in the window; all values cover them. A cycle of a lane ends "
-         "at the start of red after its last green in a cycle of the controller. If the controller skips the phase of "
-         "the lane, or if its green lasts longer, the cycle of the lane ends with that of the controller"},
+         "number of cycles that lie completely in the window; all values cover them. A cycle of a lane ends at the "
+         "start of red after its last green in a cycle of the controller. If no green of the lane ends in a cycle of "
+         "the controller, the cycle of the lane ends with that of the controller: the controller has then skipped the "
+         "lane, or the green goes on"},
         {"cycle_s", "s", "window", "mean length of these cycles"},
         {"green_s", "s", "window",
          "mean green time in a cycle: the sum, if the lane has several greens in a cycle. A cycle without green counts "
@@ -40,13 +41,13 @@ std::vector<ColumnDoc> hcm_columns() {
          "columns and all other `formula_` columns are then empty, too"},
         {"uniform_delay_s", "s", "window", "uniform delay d1"},
         {"incremental_delay_s", "s", "window", "incremental delay d2 for random arrivals, over the measured time"},
-        {"initial_queue_delay_s", "s", "window", "delay d3 from the queue that waits before the first cycle"},
+        {"initial_queue_delay_s", "s", "window", "delay d3 caused by the queue at the start of the first cycle"},
         {"stops_per_vehicle", "", "window",
          "mean number of stops before the stop line. A vehicle stops when its speed falls below 5 km/h; it can stop "
          "again after 10 km/h"},
         {"queue_50_veh", "veh", "window",
          "median over the cycles of the back of queue: the queue at the start of red, and the vehicles that join it. "
-         "With several greens in a cycle, the longest of their queues; without green, the queue before the red light"},
+         "With several greens in a cycle, the longest of their queues. Cycles without green count, too"},
         {"queue_95_veh", "veh", "window", "95th percentile of the same"},
         {"formula_queue_50_veh", "veh", "window", "mean back of queue by the formula"},
         {"formula_queue_95_veh", "veh", "window", "95th percentile of the back of queue by the formula"},

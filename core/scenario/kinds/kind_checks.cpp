@@ -44,8 +44,9 @@ void check_green_times(const Scenario& scenario, Checker& check) {
 void check_first_green(const Scenario& scenario, Checker& check) {
     const SignalSettings& signal = scenario.signal;
     if (signal.first_green_s >= scenario.duration_s) {
-        check.error("signal.first_green",
-                    "lies after the end of the run at " + short_text(scenario.duration_s, unit("s")));
+        check.error("signal.first_green", "value " + short_text(signal.first_green_s, unit("s")) +
+                                              " must be below the duration of the run, " +
+                                              short_text(scenario.duration_s, unit("s")));
     }
 }
 

@@ -111,6 +111,7 @@ void check_streets(const Scenario& scenario, Checker& check) {
                     "in streets, value 'rate' needs a demand.profile, or demand.arrivals: poisson or platooned");
     }
     check_street_signals(scenario, check);
+    check_street_links(scenario, check);
     check_pockets(scenario, check);
 }
 

@@ -99,7 +99,7 @@ std::string without_entries(const std::string& path) {
     return text;
 }
 
-// Throws InputError about a text that no path contains. The message has the nearest path, section or name of a field.
+// Throws InputError: no path contains the text. The message suggests the nearest path, section or field name.
 [[noreturn]] void refuse_path(const std::string& text, const std::vector<TableBlock>& blocks) {
     std::vector<std::string> known;
     for (const TableBlock& block : blocks) {

@@ -1,8 +1,9 @@
 // Quantities with units, as files write them: "50 km/h", "0.87 s", "2.5 m/s2", "30 %".
 //
 // A quantity must have a unit; none is assumed, not even for 0. A unit of the wrong dimension is an error. A share is
-// written as 30 % or as 0.3 fraction. A plain number, such as a platoon size, has no unit. By custom, some shares are
-// plain numbers, such as the dawdling of Krauss (kPlainShare). All values are converted to SI units, except engine
+// written as 30 % or as 0.3 fraction. A plain number, such as a platoon size, has no unit. A few
+// shares may be given without unit, such as `dawdling` of the Krauss model, because the literature does so
+// (kPlainShare). All values are converted to SI units, except engine
 // speeds, which stay in rpm, and fuel rates, which stay in g/h.
 #pragma once
 
@@ -46,11 +47,10 @@ struct Unit {
 
 // Returns all units. Each spelling has an entry of its own, such as m2 and m^2.
 const std::vector<Unit>& units();
-// Returns the unit with this spelling; "" is the unit of plain numbers, and kPlainShare that of shares that are plain
-// numbers. Throws std::logic_error if there is no such unit.
+// Returns the unit with this spelling; "" is the unit of plain numbers, and kPlainShare that of shares whose unit is
+// optional. Throws std::logic_error if there is no such unit.
 const Unit& unit(std::string_view text);
-// Stands for a share that files give without unit, as % or as fraction, such as 0.4, 40 % or 0.4 fraction. Its text is
-// empty.
+// Unit of a share whose unit is optional: 0.4, 40 % and 0.4 fraction are the same value. Its text is empty.
 inline constexpr std::string_view kPlainShare = "plain share";
 std::string_view name_of(Dimension dimension);  // "time", "length", ...
 

@@ -242,7 +242,7 @@ private:
     // because a vehicle that yields at green may have waited at red before.
     bool has_been_stopped_two_cycles(const StoppedQueue& queue) const {
         const int group = state_.plan.signal_group_for(queue.lane, v_.next_lane[at(queue.first)]);
-        if (group < 0) return true;
+        if (group < 0 || model_.signals.never_changes(group)) return true;
         const std::int64_t first_tick = model_.signals.programme(group).first_tick();
         const std::int64_t cycle_ticks = model_.signals.plan_of(group).nominal_cycle_ticks;
         return now_ >= std::max(unblocked_since(queue), first_tick) + 2 * cycle_ticks;

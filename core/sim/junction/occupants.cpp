@@ -33,10 +33,9 @@ public:
 
     // Adds the vehicles that have their front on an exit lane and their rear still inside the intersection. Checks only
     // the last two vehicles on the exit lane. If the exit lane is shorter than a vehicle, also adds vehicles with their
-    // front beyond it. Vehicles past the stop line of the exit lane count as inside since the present tick, because
-    // their VehicleRecord::junction_entry_tick holds for the next intersection. Returns false if there is nothing to
-    // add: the exit lane is empty, or its last vehicle and therefore all others are wholly on the lane, and no vehicle
-    // beyond it reaches back.
+    // front beyond it. A vehicle past the stop line of the exit lane gets the present tick as its entry time,
+    // because its VehicleRecord::junction_entry_tick belongs to the next intersection. Returns false if no vehicle on
+    // or beyond the exit lane has its rear upstream of this lane.
     bool add_from_exit(int exit) {
         const bool is_short = state_.plan.lane(exit).length_m < state_.plan.max_space_per_vehicle_m();
         const bool has_beyond = is_short && add_from_beyond(exit);

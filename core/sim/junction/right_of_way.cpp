@@ -243,9 +243,10 @@ private:
         return wait;
     }
 
-    // Returns true if `occupant`, a vehicle on connection `other`, has just had to wait. If its front is past the
-    // connection, returns true if it may have to wait at the next intersection before its rear has left the connection.
-    // Another thread can be deciding about that intersection, so its decision is not read.
+    // Returns true if `occupant` may stop before it has left connection `other`. On the connection, the latest decision
+    // tells. With its front beyond, the occupant may stop if the exit lane is shorter than a vehicle, because a wait at
+    // the next intersection then keeps its rear here. The decision there is not read, because another thread may be
+    // making it.
     bool may_have_to_wait(int other, const JunctionOccupant& occupant) const {
         const LanePlan& plan = state_.plan.lane(other);
         if (occupant.front_m <= plan.length_m) return had_to_wait(state_, occupant.slot);

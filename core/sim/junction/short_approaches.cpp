@@ -76,8 +76,7 @@ private:
         const LanePlan& plan = state_.plan.lane(approach);
         if (plan.signal_group < 0) return false;
         const Light light = state_.signals.lights[at(state_.plan.signal_group_for(approach, connection))];
-        return light != Light::green && can_stop(model_, v_, slot_, start_m + plan.stop_line_m,
-                                                 stopping_deceleration_mps2(driver_.tables, light));
+        return light != Light::green && can_stop_for_signal(model_, v_, slot_, start_m + plan.stop_line_m, light);
     }
 
     // Returns the waiting position, but at least half the way from the start of the approach lane to `end_m`, the place
@@ -87,7 +86,7 @@ private:
         return std::max({wait_m, 0.5 * end_m, kOnLane_m});
     }
 
-    // This number of vehicles at the start of an exit lane is checked, because their rears may be on the connection.
+    // Number of last vehicles on an exit lane that are checked, because their rears may still be on the connection.
     static constexpr int kReachBack = 2;
 
     // Returns true if a vehicle that takes connection `conflict.other` is in the conflict area.
@@ -127,8 +126,8 @@ private:
 };
 
 // Returns the position of the stop line of the approach lane that a vehicle on `lane` reaches next, m from the start of
-// `lane`. `next`: the next lane of the vehicle. StopSearch finds no waiting position further upstream than this line
-// minus a margin.
+// `lane`. `next`: the next lane of the vehicle. StopSearch finds no place that is more than one margin upstream
+// of this line.
 double next_line_m(const State& state, int lane, int next) {
     const LanePlan& next_plan = state.plan.lane(next);
     const bool is_connection = next_plan.origin >= 0;
@@ -147,7 +146,7 @@ void stop_before_short_approaches(const Model& model, State& state, Partition& p
         double line_m = kNoWait_m;
         for (int slot = block.first; slot < block.past_last(); ++slot) {
             const double speed_mps = v.speed_mps[at(slot)];
-            if (speed_mps < kStoppedSpeed_mps) break;  // the vehicles behind it cannot reach the approach lane
+            if (speed_mps < kStoppedSpeed_mps) break;  // its followers cannot reach the approach lane before it
             const DriverPlan& driver = model.driver_of(v.policy[at(slot)]);
             const double range_m = decision_distance_m(driver, speed_mps);
             if (state.plan.lane(lane).length_m - v.position_m[at(slot)] > range_m) break;

@@ -1,6 +1,6 @@
 // Imported networks: lets vehicles brake before a short approach lane. Right of way at an intersection is decided for
 // the vehicles on its approach lanes. The lane between two close intersections can be shorter than the braking distance
-// of a vehicle. A vehicle that learns only there that it must wait cannot stop before the conflict area.
+// of a vehicle. If the decision came only on this lane, the vehicle could no longer stop before the conflict area.
 #pragma once
 
 #include "sim/state/model.h"
@@ -8,10 +8,10 @@
 
 namespace stopline {
 
-// Adds yield stops for vehicles that will drive over a short approach lane. As long as a vehicle is upstream of this
-// lane, it must be able to stop before the first of these places:
-//   - the stop line, if the signal is not green or there is a stop sign
-//   - a conflict area where the vehicle must yield, or where another vehicle is
+// Adds a yield stop for each vehicle whose decision distance reaches beyond the end of its lane to one of these places.
+// The vehicle must be able to stop before the first of them:
+//   - the stop line, if there is a stop sign, or if the signal is not green and the vehicle can still stop there
+//   - a conflict area where the vehicle must yield, or that another vehicle occupies
 // The places are never upstream of the approach lane. So the vehicle reaches the lane, and right of way is decided
 // there. Another thread can be deciding about that intersection. The function therefore reads only positions, speeds
 // and signals, not decisions.

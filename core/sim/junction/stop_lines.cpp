@@ -22,6 +22,13 @@ double stopping_deceleration_mps2(const DriverTables& driver, Light light) {
     return light == Light::yellow ? driver.stop.decision_deceleration_mps2 : driver.cacc.deceleration_emergency_mps2;
 }
 
+bool can_stop_for_signal(const Model& model, const VehicleArrays& v, int slot, double line_m, Light light) {
+    if (model.meso && model.is_imported() && light == Light::red)
+        return can_stop_within(model, v.speed_mps[at(slot)], line_m - v.position_m[at(slot)]);
+    const DriverTables& driver = model.driver_of(v.policy[at(slot)]).tables;
+    return can_stop(model, v, slot, line_m, stopping_deceleration_mps2(driver, light));
+}
+
 namespace {
 
 // Returns true if a stop needs more than 90 % of the maximum braking. The vehicle may then overrun the line: changes to
@@ -40,8 +47,7 @@ bool may_overrun_line(const Model& model, const VehicleArrays& v, int slot, doub
 int choose_stopper(const Model& model, const State& state, const LaneBlock& block, double line_m, Light light) {
     for (int slot = block.first; slot < block.past_last(); ++slot) {
         if (is_on_last_edge(state, slot)) continue;
-        const DriverTables& driver = model.driver_of(state.vehicles.policy[at(slot)]).tables;
-        if (can_stop(model, state.vehicles, slot, line_m, stopping_deceleration_mps2(driver, light))) return slot;
+        if (can_stop_for_signal(model, state.vehicles, slot, line_m, light)) return slot;
     }
     return -1;
 }
@@ -76,8 +82,7 @@ int choose_stopper_per_movement(const Model& model, const State& state, int inde
             is_stopping && state.tick < state.signals.since_tick[at(group)] + driver.hesitation_ticks;
         if (light == Light::green && !hesitates) continue;
         const double line_m = state.plan.lane(index).stop_line_m;
-        if (is_stopping || can_stop(model, v, slot, line_m, stopping_deceleration_mps2(driver.tables, light)))
-            return slot;
+        if (is_stopping || can_stop_for_signal(model, v, slot, line_m, light)) return slot;
     }
     return -1;
 }

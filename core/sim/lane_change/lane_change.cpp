@@ -333,9 +333,11 @@ LaneChangeRequest lane_change_request(const Model& model, const State& state, in
     me.speed_mps = v.speed_mps[at(slot)];
     me.policy = v.policy[at(slot)];
     me.turn = state.plan.turn_of(v.record[at(slot)].route);
-    me.lane_changes = state.plan.adjacent(lane).turn_option(me.turn).lane_changes;
     const DriverPlan& driver = model.driver_of(me.policy);
-    me.to_line_m = state.plan.lane(lane).stop_line_m - driver.tables.stop.margin_m - me.front_m;
+    const double line_m = state.plan.lane(lane).stop_line_m - driver.tables.stop.margin_m;
+    me.to_line_m = line_m - me.front_m;
+    // On a lane that is shorter than the vehicle, no lane change is possible (can_move_beside()).
+    if (line_m >= me.length_m) me.lane_changes = state.plan.adjacent(lane).turn_option(me.turn).lane_changes;
     if (me.lane_changes != 0) me.pocket_entry_m = pocket_entry_m(state, me);
     const VehicleRecord& record = v.record[at(slot)];
     const LaneChangeMemory& memory = v.lane_memory[at(slot)];

@@ -21,7 +21,9 @@ struct JunctionOccupant {
     int slot;
     double front_m;
     double rear_m;
-    std::int64_t since_tick;  // tick at which the front passed the stop line; the present tick if it has not passed yet
+    // Tick at which the front passed the stop line. It is the present tick if the front has not passed this line yet,
+    // or is past the next stop line already.
+    std::int64_t since_tick;
 };
 
 // The position where one vehicle must stop, to yield or to wait for a gap in the adjacent lane.

@@ -63,9 +63,8 @@ private:
         bool stops_at_line = connection.stop_rule != StopRule::none;
         if (approach.signal_group >= 0) {
             const Light light = w_.light(w_.group_of(approach, connection.number));
-            stops_at_line =
-                stops_at_line || (light != Light::green && stop_lines_.can_stop(v, start_m + approach.stop_line_m,
-                                                                                stop_lines_.stopping_mps2(v, light)));
+            stops_at_line = stops_at_line || (light != Light::green &&
+                                              stop_lines_.can_stop_for(v, light, start_m + approach.stop_line_m));
         }
         if (stops_at_line) return on_lane_m(line_m, approach.stop_line_m);
         for (const Conflict& conflict : connection.conflicts) {

@@ -42,6 +42,14 @@ public:
         return speed_mps * speed_mps <= 2.0 * deceleration_mps2 * (line_m - v.position_m - delay_m);
     }
 
+    // Returns true if the vehicle can stop before a line for a light that is not green. Mesoscale mode of imported
+    // networks: with maximum braking and without lag at a red light.
+    bool can_stop_for(const Vehicle& v, Light light, double line_m) const {
+        if (!w_.is_meso || !w_.is_imported || light != Light::red) return can_stop(v, line_m, stopping_mps2(v, light));
+        const double hardest_mps2 = w_.model.common_driver().cacc.deceleration_emergency_mps2;
+        return v.speed_mps * v.speed_mps <= 2.0 * hardest_mps2 * (line_m - v.position_m);
+    }
+
 private:
     // On the last edge of its trip, a vehicle is removed at the line and ignores the signal.
     bool ends_trip_here(const Vehicle& v) const {
@@ -66,7 +74,7 @@ private:
         }
         if (stopper == lane.vehicles.end()) {
             stopper = std::find_if(lane.vehicles.begin(), lane.vehicles.end(), [&](const Vehicle& v) {
-                return !ends_trip_here(v) && can_stop(v, lane.stop_line_m, stopping_mps2(v, light));
+                return !ends_trip_here(v) && can_stop_for(v, light, lane.stop_line_m);
             });
         }
         lane.stopping_id = -1;
@@ -83,7 +91,7 @@ private:
             const Light light = w_.light(group);
             const bool hesitates = v.id == chosen && w_.tick < w_.since(group) + w_.kind(v).hesitation_ticks;
             if (light == Light::green && !hesitates) continue;
-            if (v.id != chosen && !can_stop(v, lane.stop_line_m, stopping_mps2(v, light))) continue;
+            if (v.id != chosen && !can_stop_for(v, light, lane.stop_line_m)) continue;
             stop(lane, v);
             return true;
         }

@@ -51,10 +51,11 @@ TEST(Deadlock, NamesTheVehiclesThatWaitForEachOther) {
         is_ring = is_ring || member.vehicle == deadlock.members.back().waits_for;
     EXPECT_TRUE(is_ring);
     const std::string text = deadlock_text(deadlock, report.lanes);
-    EXPECT_EQ(text.find(fmt::format("vehicle {} has been inside the intersection on {} from {:.1f} s to {:.1f} s.\n",
-                                    deadlock.vehicle, report.lanes[static_cast<std::size_t>(deadlock.lane)],
-                                    deadlock.from_s, deadlock.to_s)),
-              0U)
+    EXPECT_EQ(
+        text.find(fmt::format(
+            "vehicle {} on {} has neither left the intersection nor yielded to moving traffic from {:.1f} s to {:.1f} s.\n",
+            deadlock.vehicle, report.lanes[static_cast<std::size_t>(deadlock.lane)], deadlock.from_s, deadlock.to_s)),
+        0U)
         << text;
     EXPECT_NE(text.find(fmt::format("  vehicle {} on ", deadlock.members[1].vehicle)), std::string::npos) << text;
     EXPECT_NE(text.find(fmt::format("waits for vehicle {} (junction_blocking)\n", deadlock.members[1].vehicle)),

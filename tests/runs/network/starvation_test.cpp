@@ -8,6 +8,7 @@
 #include "runs/network/network.h"
 #include "scenario/load_scenario.h"
 #include "scenario/scenario_text.h"
+#include "support/sumo_files.h"
 
 namespace stopline {
 namespace {
@@ -40,6 +41,23 @@ TEST(Starvation, EndsTheSearchAtTheSetTime) {
     EXPECT_TRUE(never_green({"fidelity=meso", "measure.starvation=490 s"}).delays.starvations.empty());
     EXPECT_TRUE(never_green({"fidelity=meso", "measure.starvation=0 s"}).delays.starvations.empty());
     EXPECT_EQ(never_green({"fidelity=meso", "measure.starvation=200 s"}).delays.starvations.size(), 1U);
+}
+
+// Without a signal, the first vehicle need not be stopped for two signal cycles. Here the left-turning vehicle from w
+// yields to dense traffic.
+TEST(Starvation, VehicleThatYieldsWithoutSignalStarves) {
+    const testing::SumoFiles files;
+    files.write("my.net.xml", testing::opposing_lefts_net());
+    files.write("my.rou.xml", R"(<routes><vType id="x"/>
+<flow id="e" type="x" from="e" to="to_w" begin="0" end="500" departSpeed="max" period="2"/>
+<trip id="w" type="x" depart="30" from="w" to="to_n"/></routes>)");
+    const Scenario scenario = parse_scenario(
+        "{fidelity: meso, duration: 500 s, network: {kind: sumo, net: ./my.net.xml, routes: [./my.rou.xml]}, "
+        "populations: [CTG-Ref], measure: {starvation: 200 s}}",
+        "my.yaml", {}, files.folder());
+    const NetworkResult result = run_network(scenario, 0);
+    ASSERT_EQ(result.delays.starvations.size(), 1U);
+    EXPECT_EQ(result.delays.starvations[0].cause, DelayCause::yielding);
 }
 
 // A long red that belongs to the signal programme is no starvation, and neither is the red before the first green.

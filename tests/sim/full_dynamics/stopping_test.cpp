@@ -74,11 +74,11 @@ TEST_P(Stopping, StopsBeforeARedSignal) {
     }
 }
 
-// A vehicle learns of a red signal when it is closer than its comfortable stopping distance. It brakes about as hard as
-// a vehicle must that drives on for kBrakingReaction_s and then brakes evenly.
+// A vehicle learns of a red signal when it is closer than its comfortable stopping distance. Its hardest
+// braking is at most 25 % above the constant deceleration that stops it after it has driven on for kBrakingReaction_s.
 TEST_P(Stopping, BrakesEvenlyIfItLearnsOfTheStopLate) {
     constexpr double kSpeed_mps = 50.0 / 3.6;
-    constexpr double kOvershoot = 1.25;  // lags of the brake of up to 0.3 s use up a part of the time
+    constexpr double kOvershoot = 1.25;  // the brake lag of up to 0.3 s shortens the braking distance
     std::vector<double> distances_m;
     for (int k = 0; k < 10; ++k) distances_m.push_back(28.0 + 4.0 * k);
     Track track(red_road(GetParam(), distances_m.size()));

@@ -210,7 +210,7 @@ const Table& loop_table() {
         "an induction loop, which counts vehicles for --e1",
         {
             text<&S::name>("name", TextField::Rule::name, "id of the loop in the file of --e1").required(),
-            text<&S::lane>("lane", TextField::Rule::name, "name of its lane, such as west_in_0 or c0r0_west_in_0")
+            text<&S::lane>("lane", TextField::Rule::title, "name of its lane, such as west_in_0 or c0r0_west_in_0")
                 .required(),
             number<&S::position_m>("position", "m", {-20'000, 20'000},
                                    "distance from the start of the lane; below 0 m: from the stop line, or from the "
@@ -249,7 +249,7 @@ const Table& measure_table() {
                 false),
             number<&S::starvation_s>(
                 "starvation", "s", {0, 86'400},
-                "intersections: a movement starves, and the run fails, if the first vehicle of a queue waits for this "
+                "intersections: a movement starves, and the run fails, if the first vehicle of a queue is stopped for this "
                 "time, and for two cycles of its signal, although nothing blocks its way; the default is the time after "
                 "which SUMO teleports; 0 s: never"),
             choice<&S::departure_delay>(
@@ -265,8 +265,8 @@ const Table& measure_table() {
                 "lanes with a signal: report saturation flow, capacity, control delay, queues and level of service of each "
                 "lane by the Highway Capacity Manual, in hcm.csv"),
             list<&S::loops>("loops", loop_table, {0, 1000},
-                            "induction loops, in addition to the detectors that --e1 lists anyway; imported networks "
-                            "have theirs in additional files"),
+                            "additional induction loops for --e1, on approach lanes and exit lanes; imported networks "
+                            "define their loops in the files of network.additional"),
             number<&S::area_margin_m>("area_margin", "m", {0, 10'000},
                                       "grids and streets: distance from the outer intersections to the boundary of the "
                                       "measured area, on their approaches and exit lanes")

@@ -30,7 +30,8 @@ inline double reliable_stopping_distance_m(const Model& model, const DriverPlan&
                       : stopping_distance_m(driver.tables, speed_mps);
 }
 
-// Returns the speed whose reliable_stopping_distance_m() is `distance_m`, 0 or more.
+// Returns the highest speed from which a vehicle stops within `distance_m`, by reliable_stopping_distance_m().
+// Precondition: `distance_m` is at least 0.
 inline double reliably_stoppable_speed_mps(const Model& model, const DriverPlan& driver, double distance_m) {
     const double b = driver.tables.stop.deceleration_mps2;
     const double reaction_mps = model.meso ? 0.0 : b * kBrakingReaction_s;
