@@ -127,16 +127,6 @@ TEST_P(ShortApproaches, VehicleStopsAtARedSignalBehindAShortLane) {
     }
 }
 
-// Vehicles depart on the lane of 0.2 m. Vehicles from w, which are on the lanes before it, can stop behind them.
-TEST_P(ShortApproaches, DepartureOnAShortLaneLeavesRoomForTheVehicleBehind) {
-    const std::string flows = flow("w", "e", 300) + flow("s", "e", 120) + flow("c", "d", 200);
-    const Model model = model_of(close_junctions_net(), flows, "5");
-    Simulation simulation(model);
-    simulation.run_until(kDuration_s);
-    EXPECT_TRUE(simulation.state().records.violations.none());
-    EXPECT_GE(simulation.state().records.exited, 80);
-}
-
 // While a lorry waits at K, its rear is still inside J. The vehicles from a must wait until it has left.
 TEST_P(ShortApproaches, RearInsideThePreviousJunctionKeepsCrossingVehiclesOut) {
     const Model model =
