@@ -115,12 +115,19 @@ std::string without_entries(const std::string& path) {
                      " (stopline-run --describe lists all fields)");
 }
 
-// Removes the fields whose path does not contain the text.
+// Returns true if the last part of the text is a former name of the field.
+bool had_name(const FieldLine& line, const std::string& text) {
+    const std::size_t dot = text.rfind('.');  // npos + 1 is 0
+    return line.meaning.find("(old name: " + text.substr(dot + 1) + ")") != std::string::npos;
+}
+
+// Removes the fields whose path does not contain the text, unless it is their former name.
 void keep_paths_with(const std::string& text, std::vector<TableBlock>& blocks) {
     const std::vector<TableBlock> all = blocks;
     for (TableBlock& block : blocks) {
         std::erase_if(block.lines, [&](const FieldLine& line) {
-            return join_path(block.path, line.field).find(without_entries(text)) == std::string::npos;
+            return join_path(block.path, line.field).find(without_entries(text)) == std::string::npos &&
+                   !had_name(line, text);
         });
     }
     std::erase_if(blocks, [](const TableBlock& block) { return block.lines.empty(); });

@@ -4,6 +4,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <stdexcept>
 #include <system_error>
 
@@ -206,7 +208,7 @@ ParsedWhole parse_whole(std::string_view text) {
     }
     const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), result.value);
     if (error == std::errc::result_out_of_range) {
-        result.problem = "is too large";
+        result.problem = "is above the maximum of " + std::to_string(std::numeric_limits<std::uint64_t>::max());
     } else if (error != std::errc() || end != number.data() + number.size()) {
         result.problem = "is not a whole number (digits only)";
     }

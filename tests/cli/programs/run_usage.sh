@@ -59,6 +59,7 @@ lists_only "all_red" "signal: " "min_green" -- "$run" --describe green
 lists_only "all_red" "signal: " "green" -- "$run" --describe=signal.green
 lists_only "standstill_gap" "policies[]: " "time_gap" -- "$run" --describe 'policies[CTG-Ref].time_gap'
 lists_only "policies[]: " "all_red" -- "$run" "$scenario" --describe signal
+lists_only "all_red" "measure: " "(old name: steady)" -- "$run" --describe measure.steady
 refuses "no field has 'signal.gren' in its path; did you mean 'signal.green'?" -- "$run" --describe signal.gren
 refuses "no field has 'xyzxyz' in its path (stopline-run --describe lists all fields)" -- "$run" --describe xyzxyz
 prints "CDG-6m" "constant_time" "petrol_eu4_72kw" "startup_kit" "three_lanes" -- "$run" --list
