@@ -68,6 +68,33 @@ std::string close_signal_net() {
     return replaced(text, R"(via=":K_1_0" dir)", R"(via=":K_1_0" tl="K" linkIndex="1" dir)");
 }
 
+// Returns a street over junctions J and K. The edge `s` between them is 4.2 m long. Its right lane, which all vehicles
+// reach from J, leads to `c`, its left lane to `d`. J has a signal with constant green, so that the import keeps `s`.
+std::string short_fork_net() {
+    return R"(<net version="1.20">
+<edge id=":J_0" function="internal"><lane id=":J_0_0" index="0" speed="13.89" length="10" shape="0,0 10,0"/></edge>
+<edge id=":K_0" function="internal"><lane id=":K_0_0" index="0" speed="13.89" length="10" shape="14.2,0 24.2,-4"/></edge>
+<edge id=":K_1" function="internal"><lane id=":K_1_0" index="0" speed="13.89" length="10" shape="14.2,3.2 24.2,7.2"/></edge>
+<edge id="a" from="A" to="J"><lane id="a_0" index="0" speed="13.89" length="100" shape="-100,0 0,0"/></edge>
+<edge id="s" from="J" to="K"><lane id="s_0" index="0" speed="13.89" length="4.2" shape="10,0 14.2,0"/>
+<lane id="s_1" index="1" speed="13.89" length="4.2" shape="10,3.2 14.2,3.2"/></edge>
+<edge id="c" from="K" to="C"><lane id="c_0" index="0" speed="13.89" length="100" shape="24.2,-4 124.2,-4"/></edge>
+<edge id="d" from="K" to="D"><lane id="d_0" index="0" speed="13.89" length="100" shape="24.2,7.2 124.2,7.2"/></edge>
+<tlLogic id="J" type="static" programID="0" offset="0"><phase duration="60" state="G"/></tlLogic>
+<junction id="J" type="traffic_light" x="5" y="0" incLanes="a_0" intLanes=":J_0_0" shape="0,0 1,1">
+<request index="0" response="0" foes="0" cont="0"/></junction>
+<junction id="K" type="priority" x="19" y="0" incLanes="s_0 s_1" intLanes=":K_0_0 :K_1_0" shape="0,0 1,1">
+<request index="0" response="00" foes="00" cont="0"/><request index="1" response="00" foes="00" cont="0"/></junction>
+<connection from="a" to="s" fromLane="0" toLane="0" via=":J_0_0" tl="J" linkIndex="0" dir="s" state="O"/>
+<connection from="s" to="c" fromLane="0" toLane="0" via=":K_0_0" dir="R" state="M"/>
+<connection from="s" to="d" fromLane="1" toLane="0" via=":K_1_0" dir="L" state="M"/>
+<connection from=":J_0" to="s" fromLane="0" toLane="0" dir="s" state="M"/>
+<connection from=":K_0" to="c" fromLane="0" toLane="0" dir="R" state="M"/>
+<connection from=":K_1" to="d" fromLane="0" toLane="0" dir="L" state="M"/>
+)" + dead_ends("ACD") +
+           "</net>\n";
+}
+
 std::string flow(const std::string& from, const std::string& to, int rate_vehph) {
     return "<flow id=\"" + from + R"(" type="x" from=")" + from + R"(" to=")" + to +
            R"(" begin="0" end="600" departSpeed="max" vehsPerHour=")" + std::to_string(rate_vehph) + "\"/>\n";
@@ -125,6 +152,17 @@ TEST_P(ShortApproaches, VehicleStopsAtARedSignalBehindAShortLane) {
         EXPECT_EQ(violations.forced_red_entries, 0) << population;
         EXPECT_GE(simulation.state().records.exited, 85) << population;
     }
+}
+
+// The edge beyond J is shorter than the vehicle, which therefore cannot change lanes there. It misses its turn, and
+// does not wait for a lane change.
+TEST_P(ShortApproaches, VehicleMissesItsTurnOnAnEdgeShorterThanItself) {
+    const Model model = model_of(short_fork_net(), R"(<trip id="t" type="x" depart="10" from="a" to="d"/>)", "5");
+    lane_of(model, "s_1");  // the import keeps the short edge
+    Simulation simulation(model);
+    simulation.run_until(kDuration_s);
+    EXPECT_EQ(simulation.state().congestion.missed_turns, 1);
+    EXPECT_EQ(simulation.state().records.exited, 1);
 }
 
 // While a lorry waits at K, its rear is still inside J. The vehicles from a must wait until it has left.
