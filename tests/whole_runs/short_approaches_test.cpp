@@ -69,15 +69,15 @@ std::string close_signal_net() {
 }
 
 // Returns a street over junctions J and K. The edge `s` between them is 4.2 m long. Its right lane, which all vehicles
-// reach from J, leads to `c`, its left lane to `d`. J has a signal with constant green, so that the import keeps `s`.
+// reach slowly from J, leads to `c`, its left lane to `d`. J has a signal with constant green, so that the import keeps `s`.
 std::string short_fork_net() {
     return R"(<net version="1.20">
 <edge id=":J_0" function="internal"><lane id=":J_0_0" index="0" speed="13.89" length="10" shape="0,0 10,0"/></edge>
 <edge id=":K_0" function="internal"><lane id=":K_0_0" index="0" speed="13.89" length="10" shape="14.2,0 24.2,-4"/></edge>
 <edge id=":K_1" function="internal"><lane id=":K_1_0" index="0" speed="13.89" length="10" shape="14.2,3.2 24.2,7.2"/></edge>
 <edge id="a" from="A" to="J"><lane id="a_0" index="0" speed="13.89" length="100" shape="-100,0 0,0"/></edge>
-<edge id="s" from="J" to="K"><lane id="s_0" index="0" speed="13.89" length="4.2" shape="10,0 14.2,0"/>
-<lane id="s_1" index="1" speed="13.89" length="4.2" shape="10,3.2 14.2,3.2"/></edge>
+<edge id="s" from="J" to="K"><lane id="s_0" index="0" speed="1.4" length="4.2" shape="10,0 14.2,0"/>
+<lane id="s_1" index="1" speed="1.4" length="4.2" shape="10,3.2 14.2,3.2"/></edge>
 <edge id="c" from="K" to="C"><lane id="c_0" index="0" speed="13.89" length="100" shape="24.2,-4 124.2,-4"/></edge>
 <edge id="d" from="K" to="D"><lane id="d_0" index="0" speed="13.89" length="100" shape="24.2,7.2 124.2,7.2"/></edge>
 <tlLogic id="J" type="static" programID="0" offset="0"><phase duration="60" state="G"/></tlLogic>
