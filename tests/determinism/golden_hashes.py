@@ -58,7 +58,7 @@ SHORT_GRID = {"duration": "420 s", "measure.window": "240 s"}
 SMALL_GRID = {**SHORT_GRID, "network.grid.columns": "3", "network.grid.rows": "3"}
 FULL = {"fidelity": "full"}
 MESO = {"fidelity": "meso"}
-GRIDLOCK = {"duration": "900 s", "measure.window": "600 s", "signal.green": "20 s", "demand.left": "10 %",
+GRIDLOCK = {"duration": "900 s", "measure.window": "600 s", "signal.green": "25 s", "demand.left": "10 %",
             "demand.right": "30 %", **population("CDG")}
 QUICK_CYCLES = {"measure.cycles": "2", "step": "20 ms"}
 MIXED = {"populations": "[CTG-Ref, {name: MIX, pattern: alternating, components: [{policy: CDG, share: 50 %}, "

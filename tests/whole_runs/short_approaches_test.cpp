@@ -69,7 +69,8 @@ std::string close_signal_net() {
 }
 
 // Returns a street over junctions J and K. The edge `s` between them is 4.2 m long. Its right lane, which all vehicles
-// reach slowly from J, leads to `c`, its left lane to `d`. J has a signal with constant green, so that the import keeps `s`.
+// reach slowly from J, leads to `c`, its left lane to `d`. J has a signal with constant green, so that the import keeps
+// `s`.
 std::string short_fork_net() {
     return R"(<net version="1.20">
 <edge id=":J_0" function="internal"><lane id=":J_0_0" index="0" speed="13.89" length="10" shape="0,0 10,0"/></edge>

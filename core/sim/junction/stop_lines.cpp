@@ -43,9 +43,13 @@ bool may_overrun_line(const Model& model, const VehicleArrays& v, int slot, doub
 }
 
 // Returns the slot of the first vehicle that can stop before the line for a signal that shows `light`; -1: none.
-// Ignores vehicles whose trip ends on this lane.
-int choose_stopper(const Model& model, const State& state, const LaneBlock& block, double line_m, Light light) {
+// Ignores vehicles whose trip ends on this lane. `chosen`: slot of the vehicle that stops already; -1: none. A vehicle
+// ahead of it was too fast to stop. It stops instead if it has slowed for another reason before it reaches the line.
+int choose_stopper(const Model& model, const State& state, const LaneBlock& block, double line_m, Light light,
+                   int chosen) {
+    if (light == Light::green && chosen >= 0) return chosen;  // the chosen vehicle still hesitates to start
     for (int slot = block.first; slot < block.past_last(); ++slot) {
+        if (slot == chosen) return slot;
         if (is_on_last_edge(state, slot)) continue;
         if (can_stop_for_signal(model, state.vehicles, slot, line_m, light)) return slot;
     }
@@ -210,10 +214,8 @@ void decide_stop_lines(const Model& model, State& state, Partition& part) {
             line.stopping_vehicle = -1;
         } else {
             if (line.stopping_vehicle >= 0) stop_slot = slot_on_lane(state, index, line.stopping_vehicle);
-            if (stop_slot < 0) {
-                stop_slot =
-                    choose_stopper(model, state, block, lane.stop_line_m, state.signals.lights[at(lane.signal_group)]);
-            }
+            const Light light = state.signals.lights[at(lane.signal_group)];
+            stop_slot = choose_stopper(model, state, block, lane.stop_line_m, light, stop_slot);
             set_stopper(model, state, index, stop_slot, line);
             may_go = false;
         }

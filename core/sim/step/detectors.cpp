@@ -1,5 +1,6 @@
 #include "sim/step/detectors.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "base/containers/index.h"
@@ -16,6 +17,17 @@ struct Reports {
     Violations& violations;
 };
 
+// Returns true if the light of a signal group has been red for longer than the vehicle needs to stop from the speed
+// limit of the lane, or from its speed if this is higher. If such a vehicle passes on red, the signal did not surprise
+// it.
+bool had_time_to_stop(const Model& model, const State& state, int lane, int slot, int group) {
+    constexpr double kReserve_s = 2.0;  // our choice
+    const DriverTables& driver = model.driver_of(state.vehicles.policy[at(slot)]).tables;
+    const double speed_mps = std::max(state.plan.free_speed_mps(lane), state.vehicles.speed_mps[at(slot)]);
+    const double stop_s = kBrakingReaction_s + speed_mps / driver.stop.decision_deceleration_mps2;
+    return model.time_s(state.tick - state.signals.since_tick[at(group)]) > stop_s + kReserve_s;
+}
+
 // Records that a vehicle enters the intersection. Counts a violation if the vehicle passes the stop line on red
 // although it could have stopped.
 void pass_stop_line(const Model& model, State& state, const Reports& reports, int lane, int slot) {
@@ -23,13 +35,16 @@ void pass_stop_line(const Model& model, State& state, const Reports& reports, in
     record.junction_entry_tick = static_cast<int>(state.tick);
     record.line_stop_tick = -1;
     const int next = state.vehicles.next_lane[at(slot)];
-    if (state.signals.lights[at(state.plan.signal_group_for(lane, next))] != Light::red) return;
+    const int group = state.plan.signal_group_for(lane, next);
+    if (state.signals.lights[at(group)] != Light::red) return;
     // A vehicle whose trip ends on this lane, or whose turn the lane does not allow, does not enter the intersection.
     if (next < 0 && state.vehicles.itinerary_of(at(slot)).has_trip()) return;
     // A vehicle is chosen to stop for the signal only if it is able to stop (stop_lines.cpp). If the chosen vehicle
-    // passes on red, this is a violation, unless stopping needed almost maximum braking (may_overrun).
+    // passes on red, this is a violation, unless stopping needed almost maximum braking (may_overrun). It is also a
+    // violation if any vehicle passes although it had time to stop.
     const StopLineState& line = state.stop_lines.lines[at(lane)];
-    if (line.stopping_vehicle == state.vehicles.id[at(slot)] && !line.may_overrun) {
+    const bool was_chosen = line.stopping_vehicle == state.vehicles.id[at(slot)];
+    if ((was_chosen && !line.may_overrun) || had_time_to_stop(model, state, lane, slot, group)) {
         ++reports.violations.red_entries;
         reports.violations.record(
             {model.time_s(state.tick + 1), Violation::Kind::red_entry, lane, state.vehicles.id[at(slot)], -1});

@@ -72,9 +72,10 @@ private:
                 return true;
             }
         }
-        if (stopper == lane.vehicles.end()) {
+        // A vehicle ahead of the chosen one stops instead if it has become slow enough.
+        if (stopper == lane.vehicles.end() || light != Light::green) {
             stopper = std::find_if(lane.vehicles.begin(), lane.vehicles.end(), [&](const Vehicle& v) {
-                return !ends_trip_here(v) && can_stop_for(v, light, lane.stop_line_m);
+                return is_chosen(v) || (!ends_trip_here(v) && can_stop_for(v, light, lane.stop_line_m));
             });
         }
         lane.stopping_id = -1;
