@@ -81,15 +81,15 @@ std::vector<TableDoc> other_program_tables() {
              {{"intersection", "", "", "number of the intersection from 0; equal to its `name` in `hcm.csv`"},
               {"group", "", "", "number of the signal group at this intersection"},
               {"lanes", "", "",
-               "approach lanes that the group controls, separated by spaces; for a group that controls single movements: "
-               "their connections"},
+               "approach lanes that the group controls, separated by spaces; "
+               "for a group that controls single movements: their connections"},
               {"start_s", "s", "run", "start of green; below 0: the green began before the run"},
               {"end_s", "s", "run",
                "end of green, at which yellow begins; empty: the green had not ended by the end of the run"},
               {"green_s", "s", "run", "duration of green; empty if `end_s` is empty"},
               {"red_before_s", "s", "run",
-               "time from the end of the previous green of the group to this start, yellow included; empty: the first green "
-               "of the group"}})},
+               "time from the end of the previous green of the group to this start, yellow included; "
+               "empty: the first green of the group"}})},
         {"startup/startup.csv",
          "One row for each time of the measured starts.",
          {{"time_s", "s", "", "time since the vehicle started to move"},

@@ -53,7 +53,8 @@ std::vector<TableDoc> intersection_table_docs() {
          "One row for each population. The window is `measure.cycles` whole cycles after `measure.warmup_cycles`.",
          with_population(metric_group(kRunAsIntersection).summary)},
         {"intersection/headways.csv",
-         "One row for each population, lane and queue position. Only vehicles that were queued before the stop line count.",
+         "One row for each population, lane and queue position. "
+         "Only vehicles that were queued before the stop line count.",
          {kPopulationColumn,
           {"lane", "", "", "approach lane"},
           {"position", "", "", "position in the queue, from 1"},
