@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -71,7 +72,28 @@ private:
         };
         if (before == edge || !all(incoming_[at(edge)], continues_before)) return;
         if (!all(outgoing_[at(before)], to_edge) || !all(outgoing_[at(edge)], is_reached_with_via)) return;
+        if (has_crossing_traffic(incoming_[at(edge)])) return;
         merge(before, edge);
+    }
+
+    // Returns true if other connections of the junction conflict with one of `connections`. After merging, vehicles
+    // would not yield to each other there.
+    bool has_crossing_traffic(const std::vector<std::size_t>& connections) const {
+        std::set<std::pair<int, int>> links;  // junction and link number
+        for (const std::size_t k : connections) {
+            for (const auto& [internal_edge, lane] : via_lanes(connection(k))) {
+                const auto link = net_.link_of.find(fmt::format("{}_{}", net_.edges[at(internal_edge)].id, lane));
+                if (link != net_.link_of.end()) links.insert(link->second);
+            }
+        }
+        return std::any_of(links.begin(), links.end(), [&](const std::pair<int, int>& link) {
+            const std::vector<std::vector<bool>>& foes = net_.junctions[at(link.first)].foes;
+            if (at(link.second) >= foes.size()) return false;
+            for (int other = 0; at(other) < foes.size(); ++other) {
+                if (foes[at(link.second)][at(other)] && !links.contains({link.first, other})) return true;
+            }
+            return false;
+        });
     }
 
     // Returns the internal lanes of a connection, in driving order.

@@ -73,6 +73,19 @@ TEST(SumoShortEdges, StayBehindASignalOrIfLongEnough) {
     EXPECT_DOUBLE_EQ(long_enough.loops[0].position_m, 2.0);
 }
 
+// Internal edge :v belongs to junction J, which has three links: the two lanes of a, and a street that crosses them.
+TEST(SumoShortEdges, StayBehindCrossingTraffic) {
+    for (const bool crosses : {false, true}) {
+        SumoNet net = chain();
+        SumoJunction junction;
+        junction.foes = {{false, false, crosses}, {false, false, crosses}, {crosses, crosses, false}};
+        net.junctions = {junction};
+        net.link_of = {{":v_0", {0, 0}}, {":v_1", {0, 1}}};
+        merge_short_edges(net);
+        EXPECT_EQ(net.edges[2].merged_into, crosses ? -1 : 0);
+    }
+}
+
 TEST(SumoShortEdges, StayBehindATurnaround) {
     for (const char dir : {'t', 'T'}) {
         SumoNet net = chain();
