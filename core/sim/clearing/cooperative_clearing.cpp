@@ -125,11 +125,7 @@ private:
         }
     }
 
-    // Returns true if the vehicle can stop before the line. A vehicle that was held in the previous step can. It may
-    // still accelerate up to its braking curve, so the general test of can_stop() would be too strict.
-    bool can_hold(int slot) const {
-        return is_held(slot) || can_hold_for_keep_clear(model_, v_, slot, plan_.stop_line_m);
-    }
+    bool can_hold(int slot) const { return can_hold_for_keep_clear(model_, state_, lane_, slot); }
 
     // Returns true if the vehicle is so near to the line that it must decide whether to stop.
     bool decides_now(int slot) const {

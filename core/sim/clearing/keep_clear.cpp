@@ -6,6 +6,7 @@
 
 #include "base/simd/arithmetic.h"
 #include "base/speed_thresholds.h"
+#include "sim/clearing/short_exits.h"
 #include "sim/state/queries/gap.h"
 #include "sim/state/queries/stopping_distance.h"
 
@@ -122,7 +123,21 @@ struct ConnectionState {
     int crossing_slot;    // slot of the vehicle that crossing_blocker() found; -1: none
     double room_m;        // free room in the exit lane minus the space for the vehicles already checked
     bool is_free;  // true: nothing blocks the connection, and all vehicles of the approach lane fit into the exit
+    bool has_short_exit;        // true: the exit lane is short, and no vehicle on it is stopped
+    ShortExitCheck short_exit;  // used if has_short_exit is true
+
+    KeepClearHold check(const State& state, int slot);
 };
+
+// Returns the reason why the vehicle in `slot` must not enter; KeepClearHold::blocker is -1 if it may. Reserves the
+// space that the vehicle needs. So the vehicles of an approach lane must be checked from the first one on.
+KeepClearHold ConnectionState::check(const State& state, int slot) {
+    room_m -= space_needed_m(state.vehicles, slot);
+    const int ahead_on_short_exit = has_short_exit ? short_exit.blocker_of(state, slot) : -1;
+    if (crossing_slot >= 0) return {crossing_slot, false};
+    if (room_m < 0.0) return {stopped_in_exit, true};
+    return {ahead_on_short_exit, true};
+}
 
 // The ConnectionState of each connection that vehicles of one approach lane take. A state is computed when it is first
 // used.
@@ -149,8 +164,12 @@ private:
         if (plan.exit < 0 || !plan.keep_clear) return nullptr;
         const ExitRoom& room = exit_room(model_, state_, plan.exit);
         const int crossing_slot = crossing_blocker(model_, state_, connection);
-        states_[count_] = {connection, room.stopped_slot, crossing_slot, room.room_m,
-                           crossing_slot < 0 && room.room_m >= ample_room_m_};
+        const bool has_short_exit =
+            state_.plan.has_short_exits() && room.stopped_slot < 0 && state_.plan.is_short(plan.exit);
+        const bool is_free = crossing_slot < 0 && room.room_m >= ample_room_m_ && !has_short_exit;
+        states_[count_] = {connection, room.stopped_slot, crossing_slot,   room.room_m,
+                           is_free,    has_short_exit,    ShortExitCheck()};
+        if (has_short_exit) states_[count_].short_exit = ShortExitCheck(model_, state_, plan.exit);
         return &states_[count_++];
     }
 
@@ -168,7 +187,10 @@ private:
 
 }  // namespace
 
-bool can_hold_for_keep_clear(const Model& model, const VehicleArrays& v, int slot, double line_m) {
+bool can_hold_for_keep_clear(const Model& model, const State& state, int lane, int slot) {
+    const VehicleArrays& v = state.vehicles;
+    if (state.stop_lines.lines[at(lane)].keep_clear_vehicle == v.id[at(slot)]) return true;
+    const double line_m = state.plan.lane(lane).stop_line_m;
     // Ratio of the highest deceleration of a normal stop to `stop.deceleration`, because the brake lags. Our choice.
     constexpr double kLagFactor = 1.4;
     const DriverTables& driver = model.driver_of(v.policy[at(slot)]).tables;
@@ -191,12 +213,10 @@ int choose_keep_clear_stop(const Model& model, State& state, int lane) {
         if (v.position_m[at(slot)] < line_m - kDecisionDistance_m) break;
         ConnectionState* const next = connections.state_of(v.next_lane[at(slot)]);
         if (next == nullptr || next->is_free) continue;
-        next->room_m -= space_needed_m(v, slot);
-        if ((next->room_m >= 0.0 && next->crossing_slot < 0) || v.position_m[at(slot)] > line_m) continue;
-        if (!can_hold_for_keep_clear(model, v, slot, line_m)) continue;
-        state.stop_lines.held_at_green[at(lane)] = next->crossing_slot >= 0
-                                                       ? KeepClearHold{next->crossing_slot, false}
-                                                       : KeepClearHold{next->stopped_in_exit, true};
+        const KeepClearHold hold = next->check(state, slot);
+        if (hold.blocker < 0 || v.position_m[at(slot)] > line_m) continue;
+        if (!can_hold_for_keep_clear(model, state, lane, slot)) continue;
+        state.stop_lines.held_at_green[at(lane)] = hold;
         return slot;
     }
     return -1;

@@ -16,11 +16,14 @@ int choose_keep_clear_stop(const Model& model, State& state, int lane);
 // (can_stop_after_response()).
 bool can_stop(const Model& model, const VehicleArrays& v, int slot, double line_m, double deceleration_mps2);
 
-// Returns true if the vehicle can still stop before the line for the keep-clear rule. It may brake with the peak
-// deceleration of a normal stop, or with the comfortable deceleration if this is higher. The peak is kLagFactor times
-// `stop.deceleration`, but at most the emergency deceleration: with brake lag, braking starts late and must then be
-// harder. The mesoscale mode has no brake lag, so no response time is added there to braking with the peak.
-bool can_hold_for_keep_clear(const Model& model, const VehicleArrays& v, int slot, double line_m);
+// Returns true if the vehicle in `slot` on the approach lane `lane` can stop at its line for the keep-clear rule. A
+// vehicle that the rule held in the previous step can. Such a vehicle may accelerate up to its braking curve, so the
+// following test would be too strict for it. Any other vehicle must still be able to stop before the line. It may brake
+// with the peak deceleration of a normal stop, or with the comfortable deceleration if this is higher. The peak is
+// kLagFactor times `stop.deceleration`, but at most the emergency deceleration: with brake lag, braking starts late and
+// must then be harder. The mesoscale mode has no brake lag, so no response time is added there to braking with the
+// peak.
+bool can_hold_for_keep_clear(const Model& model, const State& state, int lane, int slot);
 
 // Returns the free room in an exit lane. The first call in a step computes the room, and later calls in the same step
 // reuse it.

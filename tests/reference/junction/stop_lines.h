@@ -16,6 +16,7 @@ public:
             if (lane.signal_group < 0) continue;
             lane.stop_index = -1;
             if (lane.vehicles.empty()) continue;
+            held_id_ = lane.is_held ? lane.stop_id : -1;
             lane.is_held = false;
             const bool may_hold = lane.has_movement_signals ? !stop_for_movement(lane) : stop_for_signal(lane);
             if (may_hold && w_.model.rules.keep_clear) hold_for_keep_clear(lane);
@@ -114,12 +115,14 @@ private:
         for (const Vehicle& v : lane.vehicles) {
             if (v.position_m < lane.stop_line_m - kDecisionDistance_m) return;
             if (v.next_lane < 0 || w_.lane(v.next_lane).exit < 0 || !w_.lane(v.next_lane).keep_clear) continue;
+            const Lane& exit = w_.lane(w_.lane(v.next_lane).exit);
             auto room = std::find_if(rooms_m.begin(), rooms_m.end(),
                                      [&](const auto& known) { return known.first == v.next_lane; });
-            if (room == rooms_m.end())
-                room = rooms_m.insert(room, {v.next_lane, exit_room_m(w_.lane(w_.lane(v.next_lane).exit))});
+            if (room == rooms_m.end()) room = rooms_m.insert(room, {v.next_lane, exit_room_m(exit)});
             room->second -= w_.space_m(v);
-            if (room->second >= 0.0 && !has_crossing_blocker(w_.lane(v.next_lane))) continue;
+            if (room->second >= 0.0 && !has_crossing_blocker(w_.lane(v.next_lane)) &&
+                !must_wait_for_exit(lane, v, exit))
+                continue;
             if (v.position_m > lane.stop_line_m || !can_hold(lane, v)) continue;
             lane.stop_index = static_cast<std::ptrdiff_t>(v.index);
             lane.is_held = true;
@@ -128,11 +131,31 @@ private:
         }
     }
 
+    // Returns true if the vehicle must let the vehicles ahead leave a short exit lane before it enters: the lane may end
+    // in a stop, no vehicle on it is slow, and it has no room for all of them.
+    bool must_wait_for_exit(const Lane& approach, const Vehicle& v, const Lane& exit) const {
+        if (exit.next_limit_m >= 3.0 * w_.longest_space_m() || exit_room_m(exit) < kEndless_m) return false;
+        const auto may_stop = [&](int next) {
+            return w_.lane(next).yields ||
+                   (exit.signal_group >= 0 && w_.light(w_.group_of(exit, next)) != Light::green);
+        };
+        if (std::none_of(exit.next.begin(), exit.next.end(), may_stop)) return false;
+        double ahead_m = 0.0;
+        const auto add = [&](const Vehicle& other) { ahead_m += w_.space_m(other); };
+        std::for_each(exit.vehicles.begin(), exit.vehicles.end(), add);
+        for (const int connection : w_.connections_to(exit.number)) {
+            std::for_each(w_.lane(connection).vehicles.begin(), w_.lane(connection).vehicles.end(), add);
+        }
+        for (std::size_t k = 0; k < static_cast<std::size_t>(v.index); ++k) {
+            if (approach.vehicles[k].next_lane == v.next_lane) add(approach.vehicles[k]);
+        }
+        return ahead_m > 0.0 && ahead_m + w_.space_m(v) > exit.next_limit_m;
+    }
+
     // Returns the free length of an exit lane behind its last slow vehicle, minus the space for all vehicles that
     // drive towards this vehicle. If no slow vehicle is in sight, the lane counts as endless. Before a signal that is
     // not green, moving vehicles can count as a queue at its line.
     double exit_room_m(const Lane& exit) const {
-        constexpr double kEndless_m = 1e9;
         double room_m = kEndless_m;
         double moving_m = 0.0;
         double before_line_m = 0.0;
@@ -183,8 +206,9 @@ private:
         return v.lane == approach.number && v.id == approach.stop_id;
     }
 
-    // Returns true if the vehicle can still stop at the line for the keep-clear rule.
+    // Returns true if the vehicle can still stop at the line for the keep-clear rule, or was held in the previous step.
     bool can_hold(const Lane& lane, const Vehicle& v) const {
+        if (v.id == held_id_) return true;
         constexpr double kLagFactor = 1.4;
         const CaccSettings& cacc = w_.driver(v).cacc;
         const double peak_mps2 =
@@ -195,7 +219,10 @@ private:
         return v.speed_mps * v.speed_mps <= 2.0 * peak_mps2 * (lane.stop_line_m - v.position_m);
     }
 
+    static constexpr double kEndless_m = 1e9;
+
     World& w_;
+    int held_id_ = -1;  // id of the vehicle that the keep-clear rule held on the present lane in the previous step
 };
 
 }  // namespace stopline::reference_engine

@@ -211,6 +211,8 @@ NetworkPlan::NetworkPlan(const Model& model)
         int index = 0;
         for (const int connection : next(lane)) diverges_[at(connection)].index = index++;
     }
+    has_short_exits_ =
+        std::ranges::any_of(lanes_, [this](const LanePlan& lane) { return lane.exit >= 0 && is_short(lane.exit); });
     list_conflicts(model);
     std::stable_sort(lane_order_.begin(), lane_order_.end(),
                      [this](int a, int b) { return intersection_of(a) < intersection_of(b); });

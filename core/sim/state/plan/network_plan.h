@@ -27,6 +27,11 @@ public:
     int lanes() const { return static_cast<int>(lanes_.size()); }
     // Returns the length of the longest vehicle plus the largest standstill gap, m.
     double max_space_per_vehicle_m() const { return max_space_per_vehicle_m_; }
+    // Returns true if the lane has room for only a few vehicles: for less than kFewVehicles times
+    // max_space_per_vehicle_m().
+    bool is_short(int lane) const { return this->lane(lane).next_limit_m < kFewVehicles * max_space_per_vehicle_m_; }
+    // Returns true if an exit lane of the network is short.
+    bool has_short_exits() const { return has_short_exits_; }
     // Returns the speed limit of a lane times Model::speed_factor.
     double free_speed_mps(int lane) const { return speed_factor_ * this->lane(lane).limit_mps; }
     // Returns the same, but at most the maximum speed of the vehicles with this spacing policy (their speed limiter).
@@ -145,7 +150,9 @@ private:
     void number_connections(const Model& model);
 
     double speed_factor_;
+    static constexpr double kFewVehicles = 3.0;  // our choice
     double max_space_per_vehicle_m_ = 0.0;
+    bool has_short_exits_ = false;
     int intersection_count_ = 0;
     LargeArray<LanePlan> lanes_;
     LargeArray<double> entry_speed_mps_;      // [lane]
