@@ -32,6 +32,13 @@ public:
     }
 
     void merge_all() {
+        for (const std::vector<std::size_t>& connections : outgoing_) {
+            for (const std::size_t k : connections) {
+                const SumoConnection& c = connection(k);
+                if (lane_of({c.from, c.from_lane}).allows_cars && lane_of({c.to, c.to_lane}).allows_cars)
+                    add_links(c, car_links_);
+            }
+        }
         for (std::size_t edge = 0; edge < net_.edges.size(); ++edge) try_to_merge(static_cast<int>(edge));
         std::vector<SumoConnection> kept;
         for (SumoConnection& c : net_.connections) {
@@ -42,6 +49,8 @@ public:
 
 private:
     using LaneId = std::pair<int, int>;  // edge and index of a lane
+    using Link = std::pair<int, int>;    // junction and number of the link
+    using Links = std::set<Link>;
 
     const SumoConnection& connection(std::size_t k) const { return net_.connections[k]; }
     const SumoLane& lane_of(const LaneId& id) const { return net_.edges[at(id.first)].lanes[at(id.second)]; }
@@ -79,21 +88,25 @@ private:
     // Returns true if other connections of the junction conflict with one of `connections`. After merging, vehicles
     // would not yield to each other there.
     bool has_crossing_traffic(const std::vector<std::size_t>& connections) const {
-        std::set<std::pair<int, int>> links;  // junction and link number
-        for (const std::size_t k : connections) {
-            for (const auto& [internal_edge, lane] : via_lanes(connection(k))) {
-                const auto link = net_.link_of.find(fmt::format("{}_{}", net_.edges[at(internal_edge)].id, lane));
-                if (link != net_.link_of.end()) links.insert(link->second);
-            }
-        }
-        return std::any_of(links.begin(), links.end(), [&](const std::pair<int, int>& link) {
+        Links own;
+        for (const std::size_t k : connections) add_links(connection(k), own);
+        return std::any_of(own.begin(), own.end(), [&](const Link& link) {
             const std::vector<std::vector<bool>>& foes = net_.junctions[at(link.first)].foes;
             if (at(link.second) >= foes.size()) return false;
             for (int other = 0; at(other) < foes.size(); ++other) {
-                if (foes[at(link.second)][at(other)] && !links.contains({link.first, other})) return true;
+                const Link crossing{link.first, other};
+                if (foes[at(link.second)][at(other)] && car_links_.contains(crossing) && !own.contains(crossing))
+                    return true;
             }
             return false;
         });
+    }
+
+    void add_links(const SumoConnection& c, Links& links) const {
+        for (const auto& [internal_edge, lane] : via_lanes(c)) {
+            const auto link = net_.link_of.find(fmt::format("{}_{}", net_.edges[at(internal_edge)].id, lane));
+            if (link != net_.link_of.end()) links.insert(link->second);
+        }
     }
 
     // Returns the internal lanes of a connection, in driving order.
@@ -213,6 +226,7 @@ private:
     SumoNet& net_;
     std::vector<std::vector<std::size_t>> outgoing_;            // [edge] connections from the edge to other edges
     std::vector<std::vector<std::size_t>> incoming_;            // [edge] connections from other edges to the edge
+    Links car_links_;                                           // links of connections that are open to cars
     std::vector<std::vector<std::size_t>> loops_;               // [edge] detectors on the edge
     std::map<std::pair<int, int>, std::size_t> next_in_chain_;  // [internal edge, lane] connection from this lane
 };

@@ -73,16 +73,24 @@ TEST(SumoShortEdges, StayBehindASignalOrIfLongEnough) {
     EXPECT_DOUBLE_EQ(long_enough.loops[0].position_m, 2.0);
 }
 
-// Internal edge :v belongs to junction J, which has three links: the two lanes of a, and a street that crosses them.
-TEST(SumoShortEdges, StayBehindCrossingTraffic) {
-    for (const bool crosses : {false, true}) {
+// Internal edge :v belongs to a junction with three links: the two lanes of a, and a street or a pedestrian crossing
+// that conflicts with them. Pedestrians are not simulated.
+TEST(SumoShortEdges, StayBehindACrossingStreet) {
+    for (const bool is_street : {false, true}) {
         SumoNet net = chain();
+        net.edges.push_back(edge("p", 0.0, 50.0));
+        net.edges.push_back(edge(":w", 50.0, 10.0));
+        net.edges.push_back(edge("q", 60.0, 50.0));
+        if (is_street) {
+            net.connections.push_back({5, 0, 7, 0, 6, 0});
+            net.connections.push_back({6, 0, 7, 0});
+        }
         SumoJunction junction;
-        junction.foes = {{false, false, crosses}, {false, false, crosses}, {crosses, crosses, false}};
+        junction.foes = {{false, false, true}, {false, false, true}, {true, true, false}};
         net.junctions = {junction};
-        net.link_of = {{":v_0", {0, 0}}, {":v_1", {0, 1}}};
+        net.link_of = {{":v_0", {0, 0}}, {":v_1", {0, 1}}, {":w_0", {0, 2}}};
         merge_short_edges(net);
-        EXPECT_EQ(net.edges[2].merged_into, crosses ? -1 : 0);
+        EXPECT_EQ(net.edges[2].merged_into, is_street ? -1 : 0);
     }
 }
 
