@@ -19,7 +19,7 @@ std::string intersection_text(const IntersectionReport& report) {
     for (const IntersectionResult& f : report.populations) {
         if (f.discharge.saturated_greens == 0) unsaturated += (unsaturated.empty() ? "" : ", ") + f.population;
         runs_with_violations += f.violations.none() ? 0 : 1;
-        first_violations += first_violation_text(f.population, f.violations, report.lanes);
+        first_violations += first_violation_text(f.population, f.violations, f.vehicle_names, report.lanes);
         if (f.deadlock)
             first_violations +=
                 fmt::format("Deadlock of {}: {}", f.population, deadlock_text(*f.deadlock, report.lanes));

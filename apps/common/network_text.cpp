@@ -84,7 +84,7 @@ std::string network_text(const NetworkReport& report) {
     std::string first_violations;
     for (const NetworkResult& f : report.populations) {
         runs_with_violations += f.violations.none() ? 0 : 1;
-        first_violations += first_violation_text(f.population, f.violations, report.lanes);
+        first_violations += first_violation_text(f.population, f.violations, f.vehicle_names, report.lanes);
     }
     const std::string verdict =
         runs_with_violations == 0

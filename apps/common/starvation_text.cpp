@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/io/printable.h"
+
 namespace stopline {
 
 std::string starvation_text(const Scenario& scenario, const std::vector<PopulationStarvations>& populations,
@@ -17,7 +19,8 @@ std::string starvation_text(const Scenario& scenario, const std::vector<Populati
                 break;
             }
             text += fmt::format("  {}: vehicle {} on {} is stopped from {:.0f} to {:.0f} s ({})\n", p.population,
-                                s.vehicle, lanes.at(static_cast<std::size_t>(s.lane)), s.from_s, s.to_s,
+                                printable_text(p.vehicle_names.of(s.vehicle)),
+                                printable_text(lanes.at(static_cast<std::size_t>(s.lane))), s.from_s, s.to_s,
                                 kDelayCauseNames[static_cast<std::size_t>(s.cause)]);
         }
     }

@@ -4,18 +4,24 @@
 
 #include <fmt/format.h>
 
+#include "base/io/printable.h"
+
 namespace stopline {
 
 std::string first_violation_text(const std::string& population, const Violations& violations,
-                                 const std::vector<std::string>& lanes) {
+                                 const VehicleNames& vehicle_names, const std::vector<std::string>& lanes) {
     const Violation& first = violations.first;
     if (first.time_s < 0.0) return "";
-    const std::string lane = first.lane < 0 ? "" : fmt::format(" on {}", lanes[static_cast<std::size_t>(first.lane)]);
-    std::string what = fmt::format("vehicle {} enters on red{}", first.vehicle, lane);
+    const std::string lane =
+        first.lane < 0 ? "" : fmt::format(" on {}", printable_text(lanes[static_cast<std::size_t>(first.lane)]));
+    const std::string vehicle = printable_text(vehicle_names.of(first.vehicle));
+    const std::string other = printable_text(vehicle_names.of(first.other));
+    std::string what = fmt::format("vehicle {} enters on red{}", vehicle, lane);
     if (first.kind == Violation::Kind::overlap)
-        what = fmt::format("vehicle {}{} overlaps vehicle {}", first.vehicle, lane, first.other);
+        what = fmt::format("vehicle {}{} overlaps vehicle {}", vehicle, lane, other);
     if (first.kind == Violation::Kind::conflict)
-        what = fmt::format("vehicle {}{} is in the same conflict area as vehicle {}", first.vehicle, lane, first.other);
+        what = fmt::format("vehicle {}{} is in the same conflict area as vehicle {}", vehicle, lane, other);
+    // Recordings know the vehicle only by its number.
     return fmt::format(
         "First violation of {}: at {:.1f} s {}.\n"
         "To see it: run again with --record FILE, make a page with stopline-replay, open PAGE#t={:.0f}&vehicle={}\n",

@@ -4,9 +4,9 @@
 #include "base/io/escape.h"
 #include "record/lane_names.h"
 #include "record/sumo_files.h"
-#include "record/vehicle_name.h"
 #include "record/vehicle_place.h"
 #include "record/xml_file.h"
+#include "sim/state/queries/vehicle_names.h"
 
 namespace stopline {
 
@@ -48,7 +48,7 @@ private:
         xml_.add(
             "        <vehicle id=\"{}\" x=\"{:.2f}\" y=\"{:.2f}\" angle=\"{:.2f}\" type=\"{}\" speed=\"{:.2f}\" "
             "pos=\"{:.2f}\" lane=\"{}\" slope=\"{:.2f}\" acceleration=\"{:.2f}\"/>\n",
-            vehicle_name(model_, v.itinerary_of(slot).trip, v.id[slot]), pose.point.x_m, pose.point.y_m,
+            escape_xml(vehicle_name(model_, v.itinerary_of(slot).trip, v.id[slot])), pose.point.x_m, pose.point.y_m,
             north_deg < 0.0 ? north_deg + 360.0 : north_deg, policies_[static_cast<std::size_t>(v.policy[slot])],
             v.speed_mps[slot], place.position_m, place.lane, slope_deg(lane), v.acceleration_mps2[slot]);
         ++rows_;

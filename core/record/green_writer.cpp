@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/io/csv.h"
 #include "record/streamed_file.h"
 
 namespace stopline {
@@ -36,7 +37,7 @@ public:
             const SignalPlans::Place& place = model.signals.place_of(group);
             const std::string lanes = lanes_of(model.graph, group);
             const bool is_signal = !lanes.empty() && !model.signals.never_changes(group);
-            groups_.push_back({fmt::format("{},{},{},{}", population, place.signal, place.index, lanes),
+            groups_.push_back({fmt::format("{},{},{},{}", population, place.signal, place.index, csv_field(lanes)),
                                place.is_known && is_signal});
         }
     }

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "base/io/csv.h"
 #include "record/lane_names.h"
 #include "record/streamed_file.h"
 #include "record/vehicle_place.h"
+#include "sim/state/queries/vehicle_names.h"
 
 namespace stopline {
 
@@ -44,8 +46,9 @@ private:
         const LaneNames::Place place = lane_names_.front(state, lane, slot);
         const Point front = front_pose(model_, state, lane, slot).point;
         fmt::format_to(std::back_inserter(text_), "{},{:.3f},{},{},{},{:.3f},{:.3f},{:.3f},{:.4f},{:.4f}\n",
-                       population_, model_.time_s(state.tick), v.id[slot],
-                       model_.policies[static_cast<std::size_t>(v.policy[slot])].settings.name, place.lane,
+                       population_, model_.time_s(state.tick),
+                       csv_field(vehicle_name(model_, v.itinerary_of(slot).trip, v.id[slot])),
+                       model_.policies[static_cast<std::size_t>(v.policy[slot])].settings.name, csv_field(place.lane),
                        place.position_m, front.x_m, front.y_m, v.speed_mps[slot], v.acceleration_mps2[slot]);
         ++rows_;
     }

@@ -6,8 +6,8 @@
 #include "record/departure_delay.h"
 #include "record/lane_names.h"
 #include "record/sumo_files.h"
-#include "record/vehicle_name.h"
 #include "record/xml_file.h"
+#include "sim/state/queries/vehicle_names.h"
 
 namespace stopline {
 
@@ -109,8 +109,8 @@ private:
         xml_.add(
             "    <tripinfo id=\"{}\" depart=\"{:.2f}\" departLane=\"{}\" departPos=\"{:.2f}\" departSpeed=\"{:.2f}\" "
             "departDelay=\"{:.2f}\" arrival=\"{:.2f}\" arrivalLane=\"{}\" arrivalPos=\"{:.2f}\" arrivalSpeed=\"{:.2f}\" ",
-            vehicle_name(model_, trip.number, vehicle), trip.depart_s, trip.depart_lane, trip.depart_m, trip.depart_mps,
-            trip.departure_delay_s, arrival_s, arrival.lane, arrival.position_m, trip.speed_mps);
+            escape_xml(vehicle_name(model_, trip.number, vehicle)), trip.depart_s, trip.depart_lane, trip.depart_m,
+            trip.depart_mps, trip.departure_delay_s, arrival_s, arrival.lane, arrival.position_m, trip.speed_mps);
         xml_.add(
             "duration=\"{:.2f}\" routeLength=\"{:.2f}\" waitingTime=\"{:.2f}\" waitingCount=\"{}\" stopTime=\"0.00\" "
             "timeLoss=\"{:.2f}\" rerouteNo=\"0\" devices=\"\" vType=\"{}\" speedFactor=\"1.00\" vaporized=\"\"/>\n",

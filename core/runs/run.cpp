@@ -64,6 +64,7 @@ void finish(const Simulation& simulation, RunResult& result) {
     result.passages = state.records.passages;
     result.violations = state.records.violations;
     result.v2v = v2v_result(state.records, simulation.model().v2v_plan);
+    result.vehicle_names = VehicleNames(simulation.model(), state);
     result.departure = departure_delays(simulation.model(), state);
     result.backlog = insertion_backlog(simulation.model(), state);
     result.vehicles_entered = state.records.entered;

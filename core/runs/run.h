@@ -64,6 +64,7 @@ struct RunResult {
     Violations violations;
     V2vResult v2v;
     DrivingResults driving;
+    VehicleNames vehicle_names;
     DepartureDelays departure;  // departure delays of all vehicles that arrived
     std::int64_t backlog = 0;   // vehicles that found no room to enter until the end of the run
     std::int64_t vehicles_entered = 0;

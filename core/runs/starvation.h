@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/state/delay_log.h"
+#include "sim/state/queries/vehicle_names.h"
 
 namespace stopline {
 
@@ -13,6 +14,7 @@ namespace stopline {
 struct PopulationStarvations {
     std::string population;
     std::vector<Starvation> starvations;
+    VehicleNames vehicle_names = {};
 };
 
 // Returns starvations.csv as CSV text. `lanes`: [lane] name of the lane.

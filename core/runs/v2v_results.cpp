@@ -33,8 +33,8 @@ std::string v2v_modes_csv(const std::vector<PopulationV2v>& populations) {
         {"population", "time_s", "vehicle", "leader", "from", "to", "message_age_s", "net_gap_m", "speed_mps"});
     for (const PopulationV2v& p : populations) {
         for (const V2vModeChange& change : p.v2v.changes) {
-            csv.row({p.population, fixed(change.time_s, 2), std::to_string(change.vehicle),
-                     std::to_string(change.leader), kV2vModeNames[at(change.from_mode)],
+            csv.row({p.population, fixed(change.time_s, 2), p.vehicle_names.of(change.vehicle),
+                     p.vehicle_names.of(change.leader), kV2vModeNames[at(change.from_mode)],
                      kV2vModeNames[at(change.to_mode)],
                      change.age_s < 0.0F ? "" : fixed(static_cast<double>(change.age_s), 2),
                      fixed(static_cast<double>(change.gap_m), 2), fixed(static_cast<double>(change.speed_mps), 2)});

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/state/queries/vehicle_names.h"
 #include "sim/state/run_records.h"
 #include "v2v/plan.h"
 
@@ -28,16 +29,18 @@ V2vResult v2v_result(const RunRecords& records, const V2vPlan& plan);
 struct PopulationV2v {
     std::string population;
     V2vResult v2v;
+    VehicleNames vehicle_names = {};
 };
 
 // Returns v2v_modes.csv as CSV text, or an empty text if no run has an active channel.
 std::string v2v_modes_csv(const std::vector<PopulationV2v>& populations);
 
-// Returns the parts of a report that v2v_modes_csv() needs. `Result` has the members `population` and `v2v`.
+// Returns the parts of a report that v2v_modes_csv() needs. `Result` has the members `population`, `v2v` and
+// `vehicle_names`.
 template <class Result>
 std::vector<PopulationV2v> v2v_of(const std::vector<Result>& results) {
     std::vector<PopulationV2v> all;
-    for (const Result& result : results) all.push_back({result.population, result.v2v});
+    for (const Result& result : results) all.push_back({result.population, result.v2v, result.vehicle_names});
     return all;
 }
 

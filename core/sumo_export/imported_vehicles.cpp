@@ -12,8 +12,8 @@
 
 #include "base/containers/index.h"
 #include "base/io/escape.h"
-#include "record/vehicle_name.h"
 #include "record/xml_file.h"
+#include "sim/state/queries/vehicle_names.h"
 #include "sumo_export/vehicle_type.h"
 
 namespace stopline {
@@ -142,8 +142,9 @@ void write_imported_vehicles(const std::filesystem::path& file, const Model& mod
     for (int k = 0; k < static_cast<int>(plan.trips.size()); ++k) {
         const Trip& trip = plan.trips[at(k)];
         xml.add(R"(    <vehicle id="{}" type="{}" depart="{:.3f}" departLane="{}" departPos="{}" departSpeed="{}">)",
-                vehicle_name(model, k, k), type_id(model, plan.trip_policies[at(k)], trip.length_m), trip.depart_s,
-                depart_lane(trip, network, routes.first_edge(trip)), depart_pos(trip, network), depart_speed(trip));
+                escape_xml(vehicle_name(model, k, k)), type_id(model, plan.trip_policies[at(k)], trip.length_m),
+                trip.depart_s, depart_lane(trip, network, routes.first_edge(trip)), depart_pos(trip, network),
+                depart_speed(trip));
         xml.add("<route edges=\"{}\"/></vehicle>\n",
                 escape_xml(fmt::format("{}", fmt::join(routes.edges_of(plan, k), " "))));
     }

@@ -15,13 +15,6 @@ namespace stopline {
 
 namespace {
 
-std::string quoted(const std::string& field) {
-    if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
-    std::string text = "\"";
-    for (const char c : field) text += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return text + '"';
-}
-
 // Reads the records of a CSV text. The reader does not split the text into lines first, because a quoted field can
 // contain line breaks.
 class CsvReader {
@@ -71,9 +64,16 @@ private:
 
 }  // namespace
 
+std::string csv_field(const std::string& field) {
+    if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
+    std::string text = "\"";
+    for (const char c : field) text += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return text + '"';
+}
+
 void CsvWriter::row(const std::vector<std::string>& fields) {
     if (fields.size() != columns_) throw std::logic_error("a CSV row has not as many fields as the table has columns");
-    for (std::size_t k = 0; k < fields.size(); ++k) text_ += (k == 0 ? "" : ",") + quoted(fields[k]);
+    for (std::size_t k = 0; k < fields.size(); ++k) text_ += (k == 0 ? "" : ",") + csv_field(fields[k]);
     text_ += '\n';
 }
 

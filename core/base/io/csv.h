@@ -9,6 +9,9 @@
 
 namespace stopline {
 
+// Returns the field as it stands in a row: quoted if it contains a comma, a quote or a line break.
+std::string csv_field(const std::string& field);
+
 // Builds the text of a table: one header line, then rows.
 class CsvWriter {
 public:

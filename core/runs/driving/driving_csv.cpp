@@ -17,7 +17,7 @@ std::string energy_csv(const std::vector<PopulationDriving>& populations) {
         for (const VehicleEnergy& vehicle : p.driving.energy.vehicles) {
             const auto in_Wh = [](double work_J) { return fixed(work_J / kSecondsPerHour, 3); };
             const StepWork& work = vehicle.work;
-            csv.row({p.population, std::to_string(vehicle.id), p.driving.energy.policy_names[at(vehicle.policy)],
+            csv.row({p.population, p.vehicle_names.of(vehicle.id), p.driving.energy.policy_names[at(vehicle.policy)],
                      fixed(vehicle.entered_s, 2), fixed(vehicle.left_s, 2), fixed(work.distance_m, 2),
                      std::to_string(vehicle.stops), fixed(vehicle.idle_s, 2),
                      vehicle.has_battery ? "" : fixed(vehicle.use.fuel_g, 4),

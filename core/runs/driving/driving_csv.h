@@ -5,20 +5,22 @@
 #include <vector>
 
 #include "runs/driving/driving_results.h"
+#include "sim/state/queries/vehicle_names.h"
 
 namespace stopline {
 
 struct PopulationDriving {
     std::string population;
     const DrivingResults& driving;
+    VehicleNames vehicle_names = {};
 };
 
-// Returns the parts of a report that the tables of this folder need. `Result` has the members `population` and
-// `driving`.
+// Returns the parts of a report that the tables of this folder need. `Result` has the members `population`,
+// `driving` and `vehicle_names`.
 template <class Result>
 std::vector<PopulationDriving> driving_of(const std::vector<Result>& results) {
     std::vector<PopulationDriving> all;
-    for (const Result& result : results) all.push_back({result.population, result.driving});
+    for (const Result& result : results) all.push_back({result.population, result.driving, result.vehicle_names});
     return all;
 }
 

@@ -96,7 +96,7 @@ std::string headways_csv(const IntersectionReport& report) {
 
 std::vector<PopulationStarvations> IntersectionReport::starvations() const {
     std::vector<PopulationStarvations> all;
-    for (const IntersectionResult& f : populations) all.push_back({f.population, f.starvations});
+    for (const IntersectionResult& f : populations) all.push_back({f.population, f.starvations, f.vehicle_names});
     return all;
 }
 

@@ -309,6 +309,7 @@ IntersectionResult run_intersection(const Scenario& scenario, std::size_t popula
     result.starvations = state.congestion.delays.starvations;
     result.violations = state.records.violations;
     result.v2v = v2v_result(state.records, model.v2v_plan);
+    result.vehicle_names = VehicleNames(model, state);
     result.departure = departure_delays(model, state);
     result.backlog = insertion_backlog(model, state);
     result.deadlock = deadlocks.deadlock();

@@ -52,6 +52,7 @@ struct IntersectionResult {
     std::optional<Deadlock> deadlock;  // the first one
     V2vResult v2v;
     DrivingResults driving;
+    VehicleNames vehicle_names;
     DepartureDelays departure;  // departure delays of all vehicles that arrived
     std::int64_t backlog = 0;   // vehicles that found no room to enter until the end of the run
     std::int64_t entered = 0;

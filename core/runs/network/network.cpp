@@ -32,8 +32,8 @@ const std::string& lane_name(const NetworkReport& report, int lane) {
     return lane < 0 ? kNoName : report.lanes.at(static_cast<std::size_t>(lane));
 }
 
-// Returns a vehicle number as a table cell; an empty cell for -1, which means no vehicle.
-std::string id_cell(int number) { return number < 0 ? "" : std::to_string(number); }
+// Returns the name of a vehicle as a table cell; an empty cell for -1, which means no vehicle.
+std::string vehicle_cell(const NetworkResult& f, int vehicle) { return vehicle < 0 ? "" : f.vehicle_names.of(vehicle); }
 
 }  // namespace
 
@@ -191,7 +191,7 @@ std::string delays_csv(const NetworkReport& report) {
     for (const NetworkResult& f : report.populations) {
         for (const DelayEpisode& e : f.delays.episodes) {
             csv.row({f.population, kDelayCauseNames[static_cast<std::size_t>(e.cause)], lane_name(report, e.lane),
-                     std::to_string(e.vehicle), id_cell(e.blocker), lane_name(report, e.blocker_lane),
+                     vehicle_cell(f, e.vehicle), vehicle_cell(f, e.blocker), lane_name(report, e.blocker_lane),
                      fixed(e.from_s, 1), fixed(e.to_s, 1), std::to_string(e.max_vehicles), fixed(e.delay_s, 1)});
         }
     }
@@ -226,7 +226,7 @@ std::string gridlocks_csv(const NetworkReport& report) {
             const Gridlock& g = f.delays.gridlocks[k];
             for (std::size_t member = 0; member < g.vehicles.size(); ++member) {
                 csv.row({f.population, std::to_string(k + 1), fixed(g.from_s, 1), fixed(g.to_s, 1),
-                         std::to_string(g.vehicles[member]), lane_name(report, g.lanes[member])});
+                         vehicle_cell(f, g.vehicles[member]), lane_name(report, g.lanes[member])});
             }
         }
     }
@@ -235,7 +235,7 @@ std::string gridlocks_csv(const NetworkReport& report) {
 
 std::vector<PopulationStarvations> NetworkReport::starvations() const {
     std::vector<PopulationStarvations> all;
-    for (const NetworkResult& f : populations) all.push_back({f.population, f.delays.starvations});
+    for (const NetworkResult& f : populations) all.push_back({f.population, f.delays.starvations, f.vehicle_names});
     return all;
 }
 
@@ -246,7 +246,7 @@ std::string rules_csv(const NetworkReport& report) {
     for (const NetworkResult& f : report.populations) {
         for (const RuleUse& use : f.delays.rule_uses) {
             csv.row({f.population, fixed(use.time_s, 1), kRuleNames[static_cast<std::size_t>(use.kind)],
-                     std::to_string(use.vehicle), lane_name(report, use.lane), id_cell(use.blocker),
+                     vehicle_cell(f, use.vehicle), lane_name(report, use.lane), vehicle_cell(f, use.blocker),
                      fixed(use.stopped_s, 1)});
         }
     }

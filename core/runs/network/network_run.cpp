@@ -347,6 +347,7 @@ NetworkResult run_network(const Scenario& scenario, std::size_t population,
     result.gap_counts = state.records.gap_counts;
     result.violations = state.records.violations;
     result.v2v = v2v_result(state.records, model.v2v_plan);
+    result.vehicle_names = VehicleNames(model, state);
     result.longest_in_junction_s = model.time_s(state.records.longest_in_junction_ticks);
     result.vehicles_present = sampler.mean_present(result.measured.window);
     result.max_present = sampler.max_present();

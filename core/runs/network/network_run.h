@@ -60,6 +60,7 @@ struct NetworkResult {
     Violations violations;
     V2vResult v2v;
     DrivingResults driving;
+    VehicleNames vehicle_names;
     DepartureDelays departure;                         // departure delays of all vehicles that arrived
     std::vector<DepartureDelays> approach_departures;  // [approach] the same for streets
     double longest_in_junction_s = 0.0;

@@ -29,6 +29,9 @@ struct TableDoc {
 // The first column of most tables.
 inline const ColumnDoc kPopulationColumn{"population", "", "", "name of the population"};
 
+// The column that names a vehicle as VehicleNames does.
+inline const ColumnDoc kVehicleColumn{"vehicle", "", "", "number of the vehicle; SUMO's id in imported networks"};
+
 // Returns kPopulationColumn followed by `columns`.
 std::vector<ColumnDoc> with_population(const std::vector<ColumnDoc>& columns);
 

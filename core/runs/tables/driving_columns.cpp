@@ -15,7 +15,7 @@ TableDoc energy_table_doc(std::string_view name) {
         "Written with `measure.energy: on`. One row for each vehicle that has entered. The mesoscale mode estimates "
         "the values.",
         {kPopulationColumn,
-         {"vehicle", "", "", "number of the vehicle"},
+         kVehicleColumn,
          {"policy", "", "", "spacing policy of the vehicle"},
          {"entered_s", "s", "run", "time of the entry into the network"},
          {"left_s", "s", "run", "time at which the vehicle leaves the network; empty: still there at the end"},

@@ -47,8 +47,11 @@ std::vector<TableDoc> result_tables() {
            "`signal`, `yielding`, `junction_blocking`, `turn_blocking`, `spillback`, `gridlock`, `wrong_lane`, "
            "`queue_discharge` or `refusal`; see the columns `delay_CAUSE_h` of `network/summary.csv`"},
           {"lane", "", "", "lane of the first delayed vehicle; the queue can reach back over further lanes"},
-          {"vehicle", "", "", "first delayed vehicle when the episode began"},
-          {"blocker", "", "", "vehicle for which the first delayed vehicle waited at that time; empty: none"},
+          {"vehicle", "", "",
+           "number of the first delayed vehicle when the episode began; SUMO's id in imported networks"},
+          {"blocker", "", "",
+           "number of the vehicle for which the first delayed vehicle waited at that time; SUMO's id in imported "
+           "networks; empty: none"},
           {"blocker_lane", "", "", "lane of the blocker at that time"},
           {"from_s", "s", "run", "first observation; vehicles are observed every second"},
           {"to_s", "s", "run", "last observation"},
@@ -66,8 +69,8 @@ std::vector<TableDoc> result_tables() {
          "of\nthe newest message from its leader, or from its platoon leader.",
          {kPopulationColumn,
           {"time_s", "s", "run", "time of the change"},
-          {"vehicle", "", "", "number of the vehicle"},
-          {"leader", "", "", "number of its leader"},
+          kVehicleColumn,
+          {"leader", "", "", "number of its leader; SUMO's id in imported networks"},
           {"from", "", "", "mode before: `platoon_leader`, `messages`, `old_messages`, `radar` or `acc`"},
           {"to", "", "", "mode after the change"},
           {"message_age_s", "s", "", "age of the newest message; empty: no message has arrived from this leader"},
@@ -78,7 +81,7 @@ std::vector<TableDoc> result_tables() {
          "`measure.starvation` or longer, and nothing blocks its way.",
          {kPopulationColumn,
           {"lane", "", "", "lane of the vehicle"},
-          {"vehicle", "", "", "number of the vehicle"},
+          kVehicleColumn,
           {"cause", "", "",
            "cause of its delay at the last observation: `signal`, `yielding`, `wrong_lane` or `queue_discharge`"},
           {"from_s", "s", "run", "time at which the vehicle stopped"},
@@ -90,7 +93,7 @@ std::vector<TableDoc> result_tables() {
           {"gridlock", "", "", "number of the gridlock, from 1"},
           {"from_s", "s", "run", "first observation"},
           {"to_s", "s", "run", "last observation"},
-          {"vehicle", "", "", "vehicle at the last observation"},
+          {"vehicle", "", "", "number of the vehicle at the last observation; SUMO's id in imported networks"},
           {"lane", "", "", "lane of the vehicle"}}},
     };
 }
@@ -106,9 +109,11 @@ std::vector<TableDoc> rule_and_vehicle_tables() {
            "the road behind the obstruction. `passed_blocker`: a vehicle passes a blocker (`pass_blocker_greens`). "
            "`keep_clear`: a vehicle is held at a green signal (`keep_clear`); one row when it begins. `refused`: a "
            "vehicle is held at a green signal (`clearing`); one row when it begins"},
-          {"vehicle", "", "", "vehicle that is removed, reinserted, passes or is held"},
+          {"vehicle", "", "",
+           "number of the vehicle that is removed, reinserted, passes or is held; SUMO's id in imported networks"},
           {"lane", "", "", "lane of the vehicle; `passed_blocker`: its connection through the intersection"},
-          {"blocker", "", "", "vehicle that is passed or that blocks the way; empty: none"},
+          {"blocker", "", "",
+           "number of the vehicle that is passed or that blocks the way; SUMO's id in imported networks; empty: none"},
           {"stopped_s", "s", "",
            "`teleported`, `reinserted`: time for which the vehicle has been stopped. `keep_clear`, `refused`: time for which the "
            "blocker has been stopped. `passed_blocker`: time for which the blocker had been stopped when passing was "
@@ -158,7 +163,7 @@ std::vector<TableDoc> rule_and_vehicle_tables() {
          "Written with `--trajectories`. One row for each vehicle in the network and each `--interval`.",
          {kPopulationColumn,
           {"time_s", "s", "run", "time of the sample"},
-          {"vehicle", "", "", "number of the vehicle"},
+          kVehicleColumn,
           {"policy", "", "", "spacing policy of the vehicle"},
           {"lane", "", "", "lane of its front; beyond the stop line, its connection"},
           {"position_m", "m", "",

@@ -227,6 +227,12 @@ bool crossing_vehicle_is_committed(const State& state, int route) {
     return false;
 }
 
+// Keeps the trip of a vehicle, so that the vehicle has its name also after it has left (VehicleNames).
+void record_trip(InsertionState& insertion, int vehicle, int trip) {
+    insertion.vehicle_trips.resize(at(vehicle) + 1, -1);
+    insertion.vehicle_trips.back() = trip;
+}
+
 // Inserts the vehicle of a trip at a point of its departure lane. Returns false if there is no room.
 bool insert_trip(const Model& model, State& state, int number, const InsertionPoint& point) {
     const Trip& trip = model.demand.trips[at(number)];
@@ -254,6 +260,7 @@ bool insert_trip(const Model& model, State& state, int number, const InsertionPo
     const int slot =
         insert_vehicle(model, state, {point.lane, point.front_m, speed_mps, trip.length_m, policy, route, false});
     state.vehicles.itinerary[at(slot)].trip = number;
+    if (model.demand.trip_names) record_trip(state.insertion, state.vehicles.id[at(slot)], number);
     state.vehicles.record[at(slot)].junction_entry_tick = static_cast<int>(state.tick);
     enter_trip_edge(model, state, point.lane, slot, 0);
     finish_insertion(model, state, point.lane, slot);

@@ -131,8 +131,8 @@ private:
         }
     }
 
-    // Returns true if the vehicle must let the vehicles ahead leave a short exit lane before it enters: the lane may end
-    // in a stop, no vehicle on it is slow, and it has no room for all of them.
+    // Returns true if the vehicle must let the vehicles ahead leave a short exit lane before it enters. This is so if
+    // vehicles may have to stop at the end of the lane, none on it is slow, and it has no room for all of them.
     bool must_wait_for_exit(const Lane& approach, const Vehicle& v, const Lane& exit) const {
         if (exit.next_limit_m >= 3.0 * w_.longest_space_m() || exit_room_m(exit) < kEndless_m) return false;
         const auto may_stop = [&](int next) {
