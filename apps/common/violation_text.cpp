@@ -21,7 +21,7 @@ std::string first_violation_text(const std::string& population, const Violations
         what = fmt::format("vehicle {}{} overlaps vehicle {}", vehicle, lane, other);
     if (first.kind == Violation::Kind::conflict)
         what = fmt::format("vehicle {}{} is in the same conflict area as vehicle {}", vehicle, lane, other);
-    // Recordings know the vehicle only by its number.
+    // The link needs the number, because recordings do not store names.
     return fmt::format(
         "First violation of {}: at {:.1f} s {}.\n"
         "To see it: run again with --record FILE, make a page with stopline-replay, open PAGE#t={:.0f}&vehicle={}\n",

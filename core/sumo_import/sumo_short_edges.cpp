@@ -49,7 +49,7 @@ public:
 
 private:
     using LaneId = std::pair<int, int>;  // edge and index of a lane
-    using Link = std::pair<int, int>;    // junction and number of the link
+    using Link = std::pair<int, int>;    // SUMO's link: junction, and index of a connection in its matrix
     using Links = std::set<Link>;
 
     const SumoConnection& connection(std::size_t k) const { return net_.connections[k]; }
@@ -85,8 +85,8 @@ private:
         merge(before, edge);
     }
 
-    // Returns true if other connections of the junction conflict with one of `connections`. After merging, vehicles
-    // would not yield to each other there.
+    // Returns true if another connection for cars conflicts with one of `connections` in its junction. The merged lane
+    // has no conflict areas, so vehicles of both would drive through each other.
     bool has_crossing_traffic(const std::vector<std::size_t>& connections) const {
         Links own;
         for (const std::size_t k : connections) add_links(connection(k), own);
@@ -102,6 +102,7 @@ private:
         });
     }
 
+    // Adds the links of SUMO's junctions that the connection passes.
     void add_links(const SumoConnection& c, Links& links) const {
         for (const auto& [internal_edge, lane] : via_lanes(c)) {
             const auto link = net_.link_of.find(fmt::format("{}_{}", net_.edges[at(internal_edge)].id, lane));

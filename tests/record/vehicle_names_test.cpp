@@ -1,4 +1,4 @@
-// Tests of the names of vehicles: the tables of a run name a vehicle like SUMO's floating car data of the same run.
+// Tests of the names of vehicles: the tables and the --fcd file of a run give a vehicle the same name.
 #include <gtest/gtest.h>
 
 #include <fstream>

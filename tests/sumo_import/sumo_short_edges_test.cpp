@@ -73,8 +73,8 @@ TEST(SumoShortEdges, StayBehindASignalOrIfLongEnough) {
     EXPECT_DOUBLE_EQ(long_enough.loops[0].position_m, 2.0);
 }
 
-// Internal edge :v belongs to a junction with three links: the two lanes of a, and a street or a pedestrian crossing
-// that conflicts with them. Pedestrians are not simulated.
+// Link 2 of the junction between a and s conflicts with links 0 and 1, which begin on a. It is a street, which prevents
+// merging, or a pedestrian crossing, which does not, because pedestrians are not simulated.
 TEST(SumoShortEdges, StayBehindACrossingStreet) {
     for (const bool is_street : {false, true}) {
         SumoNet net = chain();

@@ -3,21 +3,23 @@
 // fidelities.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <string>
 
 #include "base/containers/index.h"
 #include "scenario/build_model.h"
 #include "scenario/load_scenario.h"
 #include "sim/step/simulation.h"
+#include "support/close_junctions.h"
 #include "support/sumo_files.h"
 
 namespace stopline {
 namespace {
 
 using testing::dead_ends;
-using testing::replaced;
+using testing::flow;
+using testing::lane_named;
 using testing::SumoFiles;
+using testing::with_signal_at_k;
 
 // Returns a street from west to east over junctions J and K. The edge `s` between them is 0.2 m long. The street from
 // `a` to `b` crosses at J and yields there. The street from `c` to `d` crosses at K and has priority there. Vehicles
@@ -57,16 +59,7 @@ std::string close_junctions_net() {
 }
 
 // Returns close_junctions_net() with a signal at K: green for `c`, then green for `s`, for 20 s each.
-std::string close_signal_net() {
-    std::string text = close_junctions_net();
-    text = replaced(text, R"(<junction id="K" type="priority")",
-                    R"(<tlLogic id="K" type="static" programID="0" offset="0">
-<phase duration="20" state="Gr"/><phase duration="4" state="yr"/>
-<phase duration="20" state="rG"/><phase duration="4" state="ry"/></tlLogic>
-<junction id="K" type="traffic_light")");
-    text = replaced(text, R"(via=":K_0_0" dir)", R"(via=":K_0_0" tl="K" linkIndex="0" dir)");
-    return replaced(text, R"(via=":K_1_0" dir)", R"(via=":K_1_0" tl="K" linkIndex="1" dir)");
-}
+std::string close_signal_net() { return with_signal_at_k(close_junctions_net()); }
 
 // Returns a street over junctions J and K. The edge `s` between them is 4.2 m long. Its right lane, which all vehicles
 // reach slowly from J, leads to `c`, its left lane to `d`. J has a signal with constant green, so that the import keeps
@@ -96,11 +89,6 @@ std::string short_fork_net() {
            "</net>\n";
 }
 
-std::string flow(const std::string& from, const std::string& to, int rate_vehph) {
-    return "<flow id=\"" + from + R"(" type="x" from=")" + from + R"(" to=")" + to +
-           R"(" begin="0" end="600" departSpeed="max" vehsPerHour=")" + std::to_string(rate_vehph) + "\"/>\n";
-}
-
 class ShortApproaches : public ::testing::TestWithParam<const char*> {
 protected:
     static constexpr double kDuration_s = 600.0;
@@ -116,14 +104,6 @@ protected:
                                  population + "]\nmeasure: {window: 60 s}\n";
         return build_model(parse_scenario(text, "my.yaml", {}, files.folder()), 0);
     }
-
-    static int lane_of(const Model& model, const std::string& name) {
-        const auto& lanes = model.graph.lanes;
-        const auto found =
-            std::find_if(lanes.begin(), lanes.end(), [&](const Lane& lane) { return lane.name == name; });
-        EXPECT_NE(found, lanes.end()) << name;
-        return static_cast<int>(found - lanes.begin());
-    }
 };
 
 INSTANTIATE_TEST_SUITE_P(BothFidelities, ShortApproaches, ::testing::Values("meso", "full"),
@@ -133,7 +113,8 @@ INSTANTIATE_TEST_SUITE_P(BothFidelities, ShortApproaches, ::testing::Values("mes
 // K's conflict area although right of way is decided only on this lane.
 TEST_P(ShortApproaches, VehicleStopsBeforeTheConflictAreaBehindAShortLane) {
     for (const std::string length_m : {"5", "16.5"}) {
-        const Model model = model_of(close_junctions_net(), flow("w", "e", 200) + flow("c", "d", 400), length_m);
+        const Model model =
+            model_of(close_junctions_net(), flow("w", "e", 200, 600) + flow("c", "d", 400, 600), length_m);
         Simulation simulation(model);
         simulation.run_until(kDuration_s);
         const State& state = simulation.state();
@@ -145,7 +126,8 @@ TEST_P(ShortApproaches, VehicleStopsBeforeTheConflictAreaBehindAShortLane) {
 // K has a signal. The vehicles from w see it before they are on the lane of 0.2 m at its stop line.
 TEST_P(ShortApproaches, VehicleStopsAtARedSignalBehindAShortLane) {
     for (const std::string population : {"CTG-Ref", "CDG"}) {
-        const Model model = model_of(close_signal_net(), flow("w", "e", 300) + flow("c", "d", 300), "5", population);
+        const Model model =
+            model_of(close_signal_net(), flow("w", "e", 300, 600) + flow("c", "d", 300, 600), "5", population);
         Simulation simulation(model);
         simulation.run_until(kDuration_s);
         const Violations& violations = simulation.state().records.violations;
@@ -159,7 +141,7 @@ TEST_P(ShortApproaches, VehicleStopsAtARedSignalBehindAShortLane) {
 // does not wait for a lane change.
 TEST_P(ShortApproaches, VehicleMissesItsTurnOnAnEdgeShorterThanItself) {
     const Model model = model_of(short_fork_net(), R"(<trip id="t" type="x" depart="10" from="a" to="d"/>)", "5");
-    lane_of(model, "s_1");  // the import keeps the short edge
+    lane_named(model, "s_1");  // the import keeps the short edge
     Simulation simulation(model);
     simulation.run_until(kDuration_s);
     EXPECT_EQ(simulation.state().congestion.missed_turns, 1);
@@ -168,12 +150,12 @@ TEST_P(ShortApproaches, VehicleMissesItsTurnOnAnEdgeShorterThanItself) {
 
 // While a lorry waits at K, its rear is still inside J. The vehicles from a must wait until it has left.
 TEST_P(ShortApproaches, RearInsideThePreviousJunctionKeepsCrossingVehiclesOut) {
-    const Model model =
-        model_of(close_junctions_net(), flow("w", "e", 120) + flow("a", "b", 300) + flow("c", "d", 500), "16.5");
-    const int before = lane_of(model, ":J_1_0");
-    const int between = lane_of(model, "s_0");
-    const int after = lane_of(model, ":K_1_0");
-    const int crossing = lane_of(model, ":J_0_0");
+    const Model model = model_of(
+        close_junctions_net(), flow("w", "e", 120, 600) + flow("a", "b", 300, 600) + flow("c", "d", 500, 600), "16.5");
+    const int before = lane_named(model, ":J_1_0");
+    const int between = lane_named(model, "s_0");
+    const int after = lane_named(model, ":K_1_0");
+    const int crossing = lane_named(model, ":J_0_0");
     Simulation simulation(model);
     const State& state = simulation.state();
     const auto& conflicts = state.plan.conflicts(before);

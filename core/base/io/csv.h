@@ -9,7 +9,7 @@
 
 namespace stopline {
 
-// Returns the field as it stands in a row: quoted if it contains a comma, a quote or a line break.
+// Returns the text of a field for a CSV row: in quotes if it contains a comma, a quote or a line break.
 std::string csv_field(const std::string& field);
 
 // Builds the text of a table: one header line, then rows.

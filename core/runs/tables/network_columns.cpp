@@ -48,10 +48,9 @@ std::vector<TableDoc> result_tables() {
            "`queue_discharge` or `refusal`; see the columns `delay_CAUSE_h` of `network/summary.csv`"},
           {"lane", "", "", "lane of the first delayed vehicle; the queue can reach back over further lanes"},
           {"vehicle", "", "",
-           "number of the first delayed vehicle when the episode began; SUMO's id in imported networks"},
+           "the vehicle that was first in the queue when the episode began: its number, or SUMO's id in imported networks"},
           {"blocker", "", "",
-           "number of the vehicle for which the first delayed vehicle waited at that time; SUMO's id in imported "
-           "networks; empty: none"},
+           "the vehicle for which it waited at that time: its number, or SUMO's id in imported networks; empty: none"},
           {"blocker_lane", "", "", "lane of the blocker at that time"},
           {"from_s", "s", "run", "first observation; vehicles are observed every second"},
           {"to_s", "s", "run", "last observation"},
@@ -93,7 +92,8 @@ std::vector<TableDoc> result_tables() {
           {"gridlock", "", "", "number of the gridlock, from 1"},
           {"from_s", "s", "run", "first observation"},
           {"to_s", "s", "run", "last observation"},
-          {"vehicle", "", "", "number of the vehicle at the last observation; SUMO's id in imported networks"},
+          {"vehicle", "", "",
+           "a vehicle of the gridlock at its last observation: its number, or SUMO's id in imported networks"},
           {"lane", "", "", "lane of the vehicle"}}},
     };
 }

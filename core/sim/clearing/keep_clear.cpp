@@ -123,17 +123,19 @@ struct ConnectionState {
     int crossing_slot;    // slot of the vehicle that crossing_blocker() found; -1: none
     double room_m;        // free room in the exit lane minus the space for the vehicles already checked
     bool is_free;  // true: nothing blocks the connection, and all vehicles of the approach lane fit into the exit
-    bool has_short_exit;        // true: the exit lane is short, and no vehicle on it is stopped
+    // True: the exit lane is short, and no queue limits its room (ExitRoom::stopped_slot is -1).
+    bool has_short_exit;
     ShortExitCheck short_exit;  // used if has_short_exit is true
 
-    KeepClearHold check(const State& state, int slot);
+    KeepClearHold check(const Model& model, const State& state, int approach, int slot);
 };
 
-// Returns the reason why the vehicle in `slot` must not enter; KeepClearHold::blocker is -1 if it may. Reserves the
-// space that the vehicle needs. So the vehicles of an approach lane must be checked from the first one on.
-KeepClearHold ConnectionState::check(const State& state, int slot) {
+// Returns the reason why the vehicle in `slot` must not enter; KeepClearHold::blocker is -1 if it may enter. Call this
+// in driving order for the vehicles of an approach lane, because each call reserves the space of its vehicle.
+KeepClearHold ConnectionState::check(const Model& model, const State& state, int approach, int slot) {
     room_m -= space_needed_m(state.vehicles, slot);
-    const int ahead_on_short_exit = has_short_exit ? short_exit.blocker_of(state, slot) : -1;
+    const int ahead_on_short_exit =
+        has_short_exit ? short_exit.count_and_find_blocker(model, state, approach, slot) : -1;
     if (crossing_slot >= 0) return {crossing_slot, false};
     if (room_m < 0.0) return {stopped_in_exit, true};
     return {ahead_on_short_exit, true};
@@ -191,7 +193,8 @@ bool can_hold_for_keep_clear(const Model& model, const State& state, int lane, i
     const VehicleArrays& v = state.vehicles;
     if (state.stop_lines.lines[at(lane)].keep_clear_vehicle == v.id[at(slot)]) return true;
     const double line_m = state.plan.lane(lane).stop_line_m;
-    // Ratio of the highest deceleration of a normal stop to `stop.deceleration`, because the brake lags. Our choice.
+    // Ratio of the peak deceleration of a normal stop to `stop.deceleration`. With brake lag, braking starts late and
+    // must then be harder. Our choice.
     constexpr double kLagFactor = 1.4;
     const DriverTables& driver = model.driver_of(v.policy[at(slot)]).tables;
     const CaccSettings& cacc = driver.cacc;
@@ -213,7 +216,7 @@ int choose_keep_clear_stop(const Model& model, State& state, int lane) {
         if (v.position_m[at(slot)] < line_m - kDecisionDistance_m) break;
         ConnectionState* const next = connections.state_of(v.next_lane[at(slot)]);
         if (next == nullptr || next->is_free) continue;
-        const KeepClearHold hold = next->check(state, slot);
+        const KeepClearHold hold = next->check(model, state, lane, slot);
         if (hold.blocker < 0 || v.position_m[at(slot)] > line_m) continue;
         if (!can_hold_for_keep_clear(model, state, lane, slot)) continue;
         state.stop_lines.held_at_green[at(lane)] = hold;

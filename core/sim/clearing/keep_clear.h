@@ -9,20 +9,18 @@
 namespace stopline {
 
 // Returns the slot of the first vehicle that the keep-clear rule holds before the line; -1: none. Stores the reason in
-// StopLines::held_at_green: the exit lane has no room, or a stopped vehicle blocks the connection.
+// StopLines::held_at_green: the exit lane has no room, a short exit lane has no room for all vehicles that will enter it
+// (ShortExitCheck), or a stopped vehicle blocks the connection.
 int choose_keep_clear_stop(const Model& model, State& state, int lane);
 
 // Returns true if the vehicle can stop before the line if it brakes with `deceleration_mps2` after a response time
 // (can_stop_after_response()).
 bool can_stop(const Model& model, const VehicleArrays& v, int slot, double line_m, double deceleration_mps2);
 
-// Returns true if the vehicle in `slot` on the approach lane `lane` can stop at its line for the keep-clear rule. A
-// vehicle that the rule held in the previous step can. Such a vehicle may accelerate up to its braking curve, so the
-// following test would be too strict for it. Any other vehicle must still be able to stop before the line. It may brake
-// with the peak deceleration of a normal stop, or with the comfortable deceleration if this is higher. The peak is
-// kLagFactor times `stop.deceleration`, but at most the emergency deceleration: with brake lag, braking starts late and
-// must then be harder. The mesoscale mode has no brake lag, so no response time is added there to braking with the
-// peak.
+// Returns true if the vehicle in `slot` of the approach lane `lane` can stop at the line. This is always so if it was
+// held in the previous step: it may accelerate up to its braking curve, where the test of the distance would fail. Any
+// other vehicle may brake with the peak deceleration of a normal stop, or with the comfortable deceleration if this is
+// higher. The mesoscale mode has no brake lag, so no response time is added there to braking with the peak.
 bool can_hold_for_keep_clear(const Model& model, const State& state, int lane, int slot);
 
 // Returns the free room in an exit lane. The first call in a step computes the room, and later calls in the same step

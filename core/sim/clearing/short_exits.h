@@ -1,5 +1,6 @@
-// Short exit lanes, with room for only a few vehicles (NetworkPlan::is_short()). A vehicle that enters such a lane may
-// have to stop at its end, although it still moves now. The next vehicle would then stop inside the intersection.
+// Short exit lanes, with room for only a few vehicles (NetworkPlan::is_short()). If a vehicle on such a lane stops at
+// its end, the lane has no room behind it. A vehicle that followed would stop inside the intersection. So the keep-clear
+// rule counts moving vehicles, too.
 #pragma once
 
 #include "sim/state/model.h"
@@ -7,24 +8,24 @@
 
 namespace stopline {
 
-// The part of the keep-clear rule for one short exit lane and the vehicles of one approach lane that enter it.
+// Decides for one short exit lane which vehicles of one approach lane may enter it. Part of the keep-clear rule.
 class ShortExitCheck {
 public:
-    // Counts the vehicles on the exit lane and on all connections to it.
+    // Counts the vehicles on the exit lane that may have to stop at its end, and the vehicles on all connections to it.
     ShortExitCheck(const Model& model, const State& state, int exit);
     // Leaves the members uninitialised, so that an unused check costs nothing.
     // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
     ShortExitCheck() = default;
 
-    // Returns the slot of the vehicle counted last if the vehicle in `slot` must wait for it before the intersection;
-    // -1: the vehicle in `slot` need not wait. It must wait if vehicles may have to stop at the end of the exit lane
-    // and the exit lane has no room for this vehicle and all vehicles counted before it. Counts the vehicle in `slot`.
-    // So the vehicles of an approach lane must be checked from the first one on.
-    int blocker_of(const State& state, int slot);
+    // Counts the vehicle in `slot` of the approach lane `approach`. Returns the slot of the vehicle counted before it if
+    // the vehicle must wait before the intersection; -1: it need not wait. A vehicle must wait under three conditions.
+    // At least one vehicle was counted before it, and the last of these is not stopped on the approach lane. Vehicles
+    // may have to stop at the end of the exit lane. The lane has no room for all counted vehicles. Call this in driving
+    // order, from the first vehicle of the approach lane on.
+    int count_and_find_blocker(const Model& model, const State& state, int approach, int slot);
 
 private:
     void count(const State& state, int slot);
-    void count_lane(const State& state, int lane);
 
     int exit_;
     double needed_m_;  // space that the counted vehicles need in a queue

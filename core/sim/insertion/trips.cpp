@@ -227,7 +227,7 @@ bool crossing_vehicle_is_committed(const State& state, int route) {
     return false;
 }
 
-// Keeps the trip of a vehicle, so that the vehicle has its name also after it has left (VehicleNames).
+// Stores the trip of a vehicle, so that VehicleNames can name the vehicle after it has left the network.
 void record_trip(InsertionState& insertion, int vehicle, int trip) {
     insertion.vehicle_trips.resize(at(vehicle) + 1, -1);
     insertion.vehicle_trips.back() = trip;

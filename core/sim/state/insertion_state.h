@@ -67,7 +67,7 @@ struct InsertionState {
     std::vector<int> approaches_with_backlog;     // approaches with waiting trips, ascending
     std::vector<DepartureDelays> trip_delays;     // [approach] delays of trips
     int next_id = 0;                              // id of the next vehicle that enters the network
-    std::vector<int> vehicle_trips;               // [vehicle id] its trip; empty if trips have no names
+    std::vector<int> vehicle_trips;               // [vehicle id] its trip; -1: none; empty if trips have no names
 };
 
 }  // namespace stopline

@@ -21,9 +21,10 @@ struct StopLineState {
 
 // The reason why the keep-clear rule or cooperative clearing holds a vehicle at a green signal.
 struct KeepClearHold {
-    int blocker =
-        -1;  // slot of the vehicle past the stop line that blocks the way; -1: none, or the rule holds no vehicle
-    bool in_exit = false;     // true: the blocker is in the exit lane; false: it is in a conflict area
+    // Slot of the vehicle that blocks the way; -1: none, or the rule holds no vehicle. For a short exit lane, the last
+    // vehicle that enters the lane first. It can still be before the stop line.
+    int blocker = -1;
+    bool in_exit = false;     // true: the exit lane has no room; false: the blocker is in a conflict area
     bool is_refusal = false;  // true: cooperative clearing has refused the vehicle; blocker can then be -1
 };
 

@@ -131,25 +131,62 @@ private:
         }
     }
 
+    // Returns true if a vehicle with priority over the connection is in the intersection and not past the conflict area,
+    // or can reach the end of its approach lane within 8 s at the speed limit.
+    bool has_priority_traffic(const Lane& connection) const {
+        for (const Conflict& conflict : connection.conflicts) {
+            if (!conflict.yields) continue;
+            const Lane& inside = w_.lane(conflict.other);
+            const Lane& approach = w_.lane(inside.origin);
+            const auto is_inside = [&](const Vehicle& v) { return v.rear_m() < conflict.other_to_m; };
+            const auto is_near = [&](const Vehicle& v) {
+                return v.next_lane == conflict.other && approach.length_m - v.position_m <= 8.0 * approach.limit_mps;
+            };
+            if (std::any_of(inside.vehicles.begin(), inside.vehicles.end(), is_inside)) return true;
+            if (std::any_of(approach.vehicles.begin(), approach.vehicles.end(), is_near)) return true;
+        }
+        return false;
+    }
+
+    bool is_short(const Lane& exit) const { return exit.next_limit_m < 3.0 * w_.longest_space_m(); }
+
+    // Returns true if the keep-clear rule applies to the connection, and vehicles are on its short exit lane or on a
+    // connection to this lane.
+    bool leads_to_used_short_exit(const Lane& connection) const {
+        if (!connection.keep_clear || connection.exit < 0 || !is_short(w_.lane(connection.exit))) return false;
+        if (!w_.lane(connection.exit).vehicles.empty()) return true;
+        const auto& inner = w_.connections_to(connection.exit);
+        return std::any_of(inner.begin(), inner.end(), [&](int other) { return !w_.lane(other).vehicles.empty(); });
+    }
+
     // Returns true if the vehicle must let the vehicles ahead leave a short exit lane before it enters. This is so if
-    // vehicles may have to stop at the end of the lane, none on it is slow, and it has no room for all of them.
+    // vehicles may have to stop at the end of the lane, no vehicle on it is slower than 1 m/s, and the lane has no room
+    // for the vehicle and all vehicles ahead of it. The last of these must not be stopped on the same approach lane.
     bool must_wait_for_exit(const Lane& approach, const Vehicle& v, const Lane& exit) const {
-        if (exit.next_limit_m >= 3.0 * w_.longest_space_m() || exit_room_m(exit) < kEndless_m) return false;
+        if (!is_short(exit) || exit_room_m(exit) < kEndless_m) return false;
         const auto may_stop = [&](int next) {
-            return w_.lane(next).yields ||
+            const Lane& connection = w_.lane(next);
+            return (connection.yields && has_priority_traffic(connection)) || leads_to_used_short_exit(connection) ||
                    (exit.signal_group >= 0 && w_.light(w_.group_of(exit, next)) != Light::green);
         };
         if (std::none_of(exit.next.begin(), exit.next.end(), may_stop)) return false;
         double ahead_m = 0.0;
-        const auto add = [&](const Vehicle& other) { ahead_m += w_.space_m(other); };
-        std::for_each(exit.vehicles.begin(), exit.vehicles.end(), add);
+        const Vehicle* last = nullptr;
+        const auto add = [&](const Vehicle& other) {
+            ahead_m += w_.space_m(other);
+            last = &other;
+        };
+        for (const Vehicle& other : exit.vehicles) {
+            if (other.position_m <= exit.next_limit_m && (other.next_lane < 0 || may_stop(other.next_lane))) add(other);
+        }
         for (const int connection : w_.connections_to(exit.number)) {
             std::for_each(w_.lane(connection).vehicles.begin(), w_.lane(connection).vehicles.end(), add);
         }
         for (std::size_t k = 0; k < static_cast<std::size_t>(v.index); ++k) {
             if (approach.vehicles[k].next_lane == v.next_lane) add(approach.vehicles[k]);
         }
-        return ahead_m > 0.0 && ahead_m + w_.space_m(v) > exit.next_limit_m;
+        if (last == nullptr || (last->lane == approach.number && last->is_slow())) return false;
+        return w_.driver(v).stop.margin_m + ahead_m + v.length_m > exit.next_limit_m;
     }
 
     // Returns the free length of an exit lane behind its last slow vehicle, minus the space for all vehicles that

@@ -259,7 +259,8 @@ const Table& rules_table() {
         {
             choice<&S::keep_clear>(
                 "keep_clear", {"off", "on"},
-                "on: a vehicle passes the stop line only if its exit lane has room behind the last stopped vehicle"),
+                "on: a vehicle passes the stop line only if its exit lane has room behind the last stopped vehicle; on short "
+                "exit lanes moving vehicles count, too"),
             number<&S::sight_m>("sight", "m", {1, 10'000}, "distance into the exit lane that drivers check for room")
                 .enabled_by("keep_clear"),
             choice<&S::count_queue_at_red_exit>(

@@ -27,10 +27,9 @@ public:
     int lanes() const { return static_cast<int>(lanes_.size()); }
     // Returns the length of the longest vehicle plus the largest standstill gap, m.
     double max_space_per_vehicle_m() const { return max_space_per_vehicle_m_; }
-    // Returns true if the lane has room for only a few vehicles: for less than kFewVehicles times
-    // max_space_per_vehicle_m().
+    // Returns true if the lane, up to its stop line, is shorter than kFewVehicles times max_space_per_vehicle_m().
     bool is_short(int lane) const { return this->lane(lane).next_limit_m < kFewVehicles * max_space_per_vehicle_m_; }
-    // Returns true if an exit lane of the network is short.
+    // Returns true if at least one exit lane of the network is short.
     bool has_short_exits() const { return has_short_exits_; }
     // Returns the speed limit of a lane times Model::speed_factor.
     double free_speed_mps(int lane) const { return speed_factor_ * this->lane(lane).limit_mps; }

@@ -11,17 +11,17 @@
 namespace stopline {
 
 // Returns the name of the vehicle's trip, such as SUMO's id in an imported network. Returns the number of the vehicle
-// if it has no trip (-1) or if trips have no names.
+// if `trip` is -1 or if trips have no names.
 std::string vehicle_name(const Model& model, int trip, int vehicle);
 
-// Names all vehicles of a run in the same way, including vehicles that have left the network. It can outlive the model
+// Names all vehicles of a run as vehicle_name() does, including vehicles that have left the network. It can outlive the model
 // and the state.
 class VehicleNames {
 public:
     VehicleNames() = default;  // each vehicle is named by its number
     VehicleNames(const Model& model, const State& state);
 
-    // Returns the name of a vehicle that has entered before the names were taken.
+    // Returns the name of a vehicle that entered before this object was made. Returns the number of any other vehicle.
     std::string of(int vehicle) const;
 
 private:
