@@ -22,9 +22,9 @@ using testing::lane_named;
 using testing::SumoFiles;
 using testing::with_signal_at_k;
 
-// Returns SUMO's file of a street from `w` over junctions J, K and M. The edge `s` between J and K is 10 m long, the edge `e` between
-// K and M 30 m. The street from `a` to `b` crosses at J and yields there. The street from `c` to `d` crosses at K and
-// has priority there. M has a signal with constant green, so that the import keeps `e`.
+// Returns SUMO's file of a street from `w` over junctions J, K and M. The edge `s` between J and K is 10 m long, the
+// edge `e` between K and M 30 m. The street from `a` to `b` crosses at J and yields there. The street from `c` to `d`
+// crosses at K and has priority there. M has a signal with constant green, so that the import keeps `e`.
 std::string three_junctions_net() {
     return R"(<net version="1.20">
 <edge id=":J_0" function="internal"><lane id=":J_0_0" index="0" speed="13.89" length="10" shape="0,-5 0,5"/></edge>

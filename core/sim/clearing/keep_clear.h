@@ -9,8 +9,8 @@
 namespace stopline {
 
 // Returns the slot of the first vehicle that the keep-clear rule holds before the line; -1: none. Stores the reason in
-// StopLines::held_at_green: the exit lane has no room, a short exit lane has no room for all vehicles that will enter it
-// (ShortExitCheck), or a stopped vehicle blocks the connection.
+// StopLines::held_at_green: the exit lane has no room, a short exit lane has no room for all vehicles that will enter
+// it (ShortExitCheck), or a stopped vehicle blocks the connection.
 int choose_keep_clear_stop(const Model& model, State& state, int lane);
 
 // Returns true if the vehicle can stop before the line if it brakes with `deceleration_mps2` after a response time

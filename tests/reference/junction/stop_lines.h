@@ -131,8 +131,8 @@ private:
         }
     }
 
-    // Returns true if a vehicle with priority over the connection is in the intersection and not past the conflict area,
-    // or can reach the end of its approach lane within 8 s at the speed limit.
+    // Returns true if a vehicle with priority over the connection is in the intersection and not past the conflict
+    // area, or can reach the end of its approach lane within 8 s at the speed limit.
     bool has_priority_traffic(const Lane& connection) const {
         for (const Conflict& conflict : connection.conflicts) {
             if (!conflict.yields) continue;
