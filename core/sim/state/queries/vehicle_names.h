@@ -14,8 +14,8 @@ namespace stopline {
 // if `trip` is -1 or if trips have no names.
 std::string vehicle_name(const Model& model, int trip, int vehicle);
 
-// Names all vehicles of a run as vehicle_name() does, including vehicles that have left the network. It can outlive the model
-// and the state.
+// Names all vehicles of a run as vehicle_name() does, including vehicles that have left the network. It can outlive the
+// model and the state.
 class VehicleNames {
 public:
     VehicleNames() = default;  // each vehicle is named by its number
